@@ -1,0 +1,72 @@
+// Link cells: lanes are eight candidates of one particle, contiguous in the cell-sorted columns; full list (each
+// contact is met from both sides), so tiles of cell rows write only their own particles.
+#pragma once
+
+#include "simd/md/pairs.ipp"
+
+namespace sandlane::simd {
+
+// One run of candidates [begin, end) of the particle at sorted position `self`.
+template <class Arch>
+SANDLANE_INLINE void sweep_run(const CellView& cells, const PairView& view, PairKernel kernel, std::int32_t self,
+                               std::int32_t begin, std::int32_t end, PairBuffer& pairs) {
+    using R = Block<Arch>;
+    const R x(cells.x[self]), y(cells.y[self]), radius(cells.radius[self]);
+    for (std::int32_t first = begin; first < end; first += width) {
+        const R dx = minimum_image(load<Arch>(cells.x + first) - x, view.half_x, view.period_x);
+        const R dy = minimum_image(load<Arch>(cells.y + first) - y, view.half_y, view.period_y);
+        const R sum = load<Arch>(cells.radius + first) + radius;
+        unsigned hits = bits(dx * dx + dy * dy < sum * sum * R(candidate_margin));
+        if (end - first < width) hits &= (1u << (end - first)) - 1u;
+        const std::int32_t own = self - first;
+        if (own >= 0 && own < width) hits &= ~(1u << own);
+        const std::int32_t i = cells.owner[self];
+        for (int n = 0; n < width; ++n) pairs.i[pairs.count + n] = i;
+        Compress<Arch>::apply(cells.owner + first, hits, pairs.j + pairs.count);
+        pairs.count += __builtin_popcount(hits);
+        if (pairs.count >= pair_chunk) pairs.evaluate_full(view, kernel, Target::first);
+    }
+}
+
+// The columns next to `column`, as at most two runs of cells (a periodic seam splits them).
+struct ColumnRuns {
+    std::int32_t first[2], last[2];
+    int count;
+};
+template <class Arch>
+SANDLANE_INLINE ColumnRuns neighbour_columns(std::int32_t column, std::int32_t columns, bool periodic) {
+    if (columns == 1) return {{0, 0}, {0, 0}, 1};
+    if (periodic && column == 0) return {{0, columns - 1}, {1, columns - 1}, 2};
+    if (periodic && column == columns - 1) return {{0, column - 1}, {0, column}, 2};
+    const std::int32_t first = column > 0 ? column - 1 : 0;
+    const std::int32_t last = column < columns - 1 ? column + 1 : column;
+    return {{first, 0}, {last, 0}, 1};
+}
+
+template <class Arch>
+SweepResult cells_full(const CellView& cells, const PairView& view, PairKernel kernel, std::int32_t row_begin,
+                       std::int32_t row_end) {
+    PairBuffer pairs;
+    SweepResult result;
+    for (std::int32_t row = row_begin; row < row_end; ++row) {
+        const ColumnRuns rows = neighbour_columns<Arch>(row, cells.rows, cells.periodic_y);
+        for (std::int32_t column = 0; column < cells.columns; ++column) {
+            const ColumnRuns runs = neighbour_columns<Arch>(column, cells.columns, cells.periodic_x);
+            const std::ptrdiff_t cell = std::ptrdiff_t{row} * cells.columns + column;
+            for (std::int32_t self = cells.start[cell]; self < cells.start[cell + 1]; ++self)
+                for (int r = 0; r < rows.count; ++r)
+                    for (std::int32_t other = rows.first[r]; other <= rows.last[r]; ++other)
+                        for (int c = 0; c < runs.count; ++c) {
+                            const std::int32_t* start = cells.start + std::ptrdiff_t{other} * cells.columns;
+                            sweep_run<Arch>(cells, view, kernel, self, start[runs.first[c]], start[runs.last[c] + 1],
+                                            pairs);
+                        }
+            result.occupied += cells.start[cell + 1] - cells.start[cell];
+        }
+    }
+    pairs.evaluate_rest(view, kernel, Target::first);
+    result.largest_overlap = pairs.largest_overlap;
+    return result;
+}
+
+} // namespace sandlane::simd

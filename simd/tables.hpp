@@ -1,0 +1,129 @@
+// The single door between src/ and simd/: plain views of columns, and one table of kernel functions per instruction
+// set. The table named `scalar` is the reference: simple loops written separately in src/md/reference.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace sandlane::simd {
+
+enum class Isa { scalar, sse4_2, avx2, avx512 };
+
+// Record of a particle for pair kernels: eight doubles, 64 bytes, at the predicted time. Everything a law needs of a
+// pair is a difference of fields 0-3 or a sum of fields 4-7.
+//   0 x  1 y  2 vx  3 vy  |  4 R omega  5 R  6 1/R  7 unused
+inline constexpr int record_fields = 8;
+// Force accumulator of a particle: Fx, Fy, sum of f_t (torque = R sum f_t), unused.
+inline constexpr int force_fields = 4;
+
+// What a pair kernel reads and writes. Periods of open sides: period 0, half period infinite.
+struct PairView {
+    const double* records;
+    const std::int32_t* material;
+    double* force;
+    double period_x, period_y, half_x, half_y;
+    const double* coefficients; // laws::PairCoefficients [materials][materials]
+    std::int32_t materials;
+};
+
+// Which partners of a pair get the force.
+enum class Target { both, first, second };
+
+// Evaluates `count` pairs (i, j) and adds their forces in list order; returns the largest overlap [m] (or `largest`).
+using PairKernel = double (*)(const PairView&, const std::int32_t* i, const std::int32_t* j, std::int32_t count,
+                              Target target, double largest);
+
+// L-vectors (md-vectorised-lattice 1.2): one entry per site, row-major with a halo of `reach` sites on every side.
+// Empty sites hold x = 1e15 (item 13). Sites of the domain start at `origin`.
+struct LatticeView {
+    const double *x, *y, *radius;
+    const std::int32_t* owner;
+    std::ptrdiff_t row_stride, origin;
+    std::int32_t columns, rows, reach;
+    const std::int32_t* offsets; // half mask: the second half of the full mask, ascending (item 14)
+    double uniform_square;       // (2 R)^2 when all radii are equal
+    std::int32_t tile_rows;      // tiles of the half mask
+};
+inline constexpr double empty_site = 1e15;
+// Relative widening of the squared contact distance: candidates are a superset, pair kernels decide (xi > 0).
+inline constexpr double candidate_margin = 1.0 + 0x1p-40;
+
+struct SweepResult {
+    double largest_overlap = 0; // m
+    std::int64_t occupied = 0;  // sites with a particle: equals N unless two shared a site (item 6)
+};
+using LatticeKernel = SweepResult (*)(const LatticeView&, const PairView&, PairKernel, std::int32_t row_begin,
+                                      std::int32_t row_end);
+
+// Link cells: particles counting-sorted by cell. One cell in a direction means "all particles" in that direction.
+struct CellView {
+    const double *x, *y, *radius;
+    const std::int32_t* owner;
+    const std::int32_t* start; // cells + 1 entries, row-major
+    std::int32_t columns, rows;
+    bool periodic_x, periodic_y;
+};
+using CellKernel = SweepResult (*)(const CellView&, const PairView&, PairKernel, std::int32_t row_begin,
+                                   std::int32_t row_end);
+
+// State of the integrator: blocks of eight particles, gear[block][dof * order + k][lane], dof = x, y(, phi).
+struct MotionView {
+    double* gear;
+    double* records;
+    double* force;
+    const double* inverse_mass;
+    const double* spin_factor; // R/J, angular acceleration per sum of f_t
+    const double* radius;
+    const double* inverse_radius;
+    std::int32_t *image_x, *image_y;
+    std::int64_t count;
+    double dt, half_dt2, inverse_dt;
+    double gravity_x, gravity_y, gravity_phi;
+    double lower_x, lower_y, upper_x, upper_y;
+    double period_x, period_y; // 0: open
+};
+struct MotionResult {
+    double largest_speed2 = 0; // (m/s)^2 of the predicted velocities
+    std::int64_t outside = 0;  // particles outside the domain after wrapping, or NaN
+};
+// correct: forces -> state at t. predict: state at t -> state and records at t + dt. advance: both, in one pass.
+using MotionKernel = MotionResult (*)(const MotionView&, std::int64_t begin, std::int64_t end);
+
+// Site (or cell) of each particle, computed from its record; conflict free because a site holds one centre.
+struct BinView {
+    const double* records;
+    std::int64_t count;
+    std::int32_t* site;
+    double lower_x, lower_y, inverse_dx, inverse_dy;
+    std::int32_t columns, rows;
+    std::ptrdiff_t row_stride, origin;
+};
+using BinKernel = void (*)(const BinView&, std::int64_t begin, std::int64_t end);
+
+struct MdKernels {
+    PairKernel pair[2][2][2];       // [normal law][tangential law][many materials]
+    LatticeKernel lattice_full[2];  // [many radii]
+    LatticeKernel lattice_half[2];
+    CellKernel cells;
+    MotionKernel predict[3][2], correct[3][2], advance[3][2]; // [order - 4][spin]
+    BinKernel bin;
+};
+
+[[nodiscard]] const MdKernels& md_kernels(Isa isa);
+
+// ---- dispatch -------------------------------------------------------------------------------------------------
+
+[[nodiscard]] std::string_view isa_name(Isa isa);
+[[nodiscard]] std::optional<Isa> isa_from_name(std::string_view name);
+[[nodiscard]] bool isa_built(Isa isa);     // this binary holds its kernels
+[[nodiscard]] bool isa_supported(Isa isa); // and this machine can run them
+[[nodiscard]] std::vector<Isa> available_isas();
+
+// name: "auto" or an instruction set. Throws Error(invalid_input) for an unknown name, Error(unavailable) for one that
+// this machine lacks. "auto" honours SANDLANE_ISA.
+[[nodiscard]] Isa choose_isa(std::string_view name);
+
+} // namespace sandlane::simd

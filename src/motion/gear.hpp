@@ -1,0 +1,30 @@
+// Gear predictor-corrector in Nordsieck form (md-spheres 4.1): X_k = dt^k/k! d^k y/dt^k, k = 0 .. order-1.
+// Coefficients c_k for velocity-dependent forces, which dissipative contacts are.
+#pragma once
+
+namespace sandlane::motion {
+
+template <int order> struct Gear;
+template <> struct Gear<4> { // (2.28)
+    static constexpr double c[4] = {1.0 / 6.0, 5.0 / 6.0, 1.0, 1.0 / 3.0};
+};
+template <> struct Gear<5> { // (2.27)
+    static constexpr double c[5] = {19.0 / 90.0, 3.0 / 4.0, 1.0, 1.0 / 2.0, 1.0 / 12.0};
+};
+template <> struct Gear<6> { // (2.26)
+    static constexpr double c[6] = {3.0 / 16.0, 251.0 / 360.0, 1.0, 11.0 / 18.0, 1.0 / 6.0, 1.0 / 60.0};
+};
+
+// X <- P X with the binomial matrix, as repeated additions (a Pascal triangle).
+template <int order, class R> inline void gear_predict(R (&x)[order]) {
+    for (int first = 0; first < order - 1; ++first)
+        for (int k = order - 2; k >= first; --k) x[k] = x[k] + x[k + 1];
+}
+
+// X <- X + c (dt^2/2 a - X_2); `half_dt2` = dt^2/2 [s^2], a [m/s^2 or rad/s^2].
+template <int order, class R> inline void gear_correct(R (&x)[order], const R& acceleration, const R& half_dt2) {
+    const R difference = half_dt2 * acceleration - x[2];
+    for (int k = 0; k < order; ++k) x[k] = x[k] + R(Gear<order>::c[k]) * difference;
+}
+
+} // namespace sandlane::motion
