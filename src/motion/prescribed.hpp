@@ -14,12 +14,13 @@ struct RigidState {
     double cosine = 1, sine = 0; // rotation angle since the reference time
     double angle = 0, omega = 0;
 
-    [[nodiscard]] Vec position(Vec reference) const {
+    [[nodiscard]] Vec position_of(Vec reference) const {
         const Vec d = reference - pivot;
         return pivot + shift + Vec{cosine * d.x - sine * d.y, sine * d.x + cosine * d.y, 0};
     }
-    [[nodiscard]] Vec velocity(Vec reference) const {
-        const Vec arm = position(reference) - pivot - shift;
+    // Velocity of the material point that is at `position` now.
+    [[nodiscard]] Vec velocity_at(Vec position) const {
+        const Vec arm = position - pivot - shift;
         return shift_velocity + Vec{-omega * arm.y, omega * arm.x, 0};
     }
     [[nodiscard]] Vec rotate(Vec direction) const {

@@ -104,6 +104,7 @@ struct Wall {
     double ring_radius = 0;      // grains: > 0 puts them on a circle around centre
     double angle_from = 0, angle_to = 6.283185307179586; // arc and ring, counter-clockwise
     double spacing = 0;          // grains: distance of centres (0: 2 R)
+    std::vector<GrainItem> items; // grains: explicit wall grains instead of a row or ring
     double omega = 0;            // grains: surface spin of each wall grain in addition to the motion
 };
 

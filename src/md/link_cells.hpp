@@ -1,0 +1,33 @@
+// Link cells (md-spheres 5.2): particles counting-sorted by cell at every step. One cell per direction is brute force.
+#pragma once
+
+#include "core/column.hpp"
+#include "md/plan.hpp"
+#include "md/state.hpp"
+#include "simd/tables.hpp"
+
+#include <cstdint>
+
+namespace sandlane::md {
+
+class LinkCells {
+public:
+    LinkCells() = default;
+    // brute_force: one cell.
+    LinkCells(const scene::Scene& scene, const Plan& plan, double radius_max, bool brute_force);
+
+    void build(const State& state, simd::BinKernel kernel, int threads);
+    [[nodiscard]] simd::CellView view() const;
+    [[nodiscard]] std::int32_t rows() const { return rows_; }
+    [[nodiscard]] std::int32_t columns() const { return columns_; }
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    Column<double> x_, y_, radius_;
+    Column<std::int32_t> owner_, start_, cell_;
+    std::int32_t columns_ = 1, rows_ = 1;
+    double lower_x_ = 0, lower_y_ = 0, cell_x_ = 1, cell_y_ = 1;
+    bool periodic_x_ = false, periodic_y_ = false;
+};
+
+} // namespace sandlane::md

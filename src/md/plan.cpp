@@ -1,0 +1,282 @@
+#include "md/plan.hpp"
+
+#include "core/error.hpp"
+#include "laws/contact.hpp"
+#include "laws/restitution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace sandlane::md {
+
+using scene::NeighbourMethod;
+using scene::Scene;
+
+namespace {
+
+double reduced_modulus(const scene::Material& m) {
+    return (1 - m.poisson * m.poisson) / m.young;
+}
+
+int order_of(scene::Integrator integrator) {
+    switch (integrator) {
+    case scene::Integrator::gear4: return 4;
+    case scene::Integrator::gear5: return 5;
+    case scene::Integrator::gear6: return 6;
+    }
+    return 5;
+}
+
+// Largest stable w dt of the integrator at damping ratio z, interpolated in table 4.6.
+double stable_phase(int order, double z) {
+    static constexpr double at[] = {0.0, 0.3, 1.0, 3.0};
+    static constexpr double bound[3][4] = {{1.41, 0.69, 0.26, 0.091}, {0.94, 0.42, 0.148, 0.050}, {0.81, 0.25, 0.081, 0.028}};
+    const double* b = bound[order - 4];
+    for (int n = 1; n < 4; ++n)
+        if (z <= at[n]) return b[n - 1] + (b[n] - b[n - 1]) * (z - at[n - 1]) / (at[n] - at[n - 1]);
+    return b[3] * at[3] / z;
+}
+
+// Largest stable dt gamma/m of a pure damping force (3.1).
+double stable_damping(int order) {
+    static constexpr double bound[] = {0.54, 0.30, 0.16};
+    return bound[order - 4];
+}
+
+struct Stiffness {
+    double frequency = 0, damping_ratio = 0, collision_time = 0, restitution = 1, overlap = 0;
+};
+
+// A contact of reduced mass m and reduced radius R at normal impact speed g.
+Stiffness contact_stiffness(const Scene& scene, const double* c, double mass, double radius, double speed) {
+    Stiffness s;
+    if (scene.md.normal == scene::NormalLaw::linear_dashpot) {
+        s.frequency = std::sqrt(c[0] / mass);
+        s.damping_ratio = c[1] / (2 * std::sqrt(c[0] * mass));
+        s.collision_time = std::numbers::pi / s.frequency;
+        s.restitution = laws::linear_dashpot_restitution(s.damping_ratio);
+        s.overlap = speed / s.frequency;
+        return s;
+    }
+    const double k = c[0] * std::sqrt(radius);
+    const double x = c[1] * std::pow(k / mass, 0.4) * std::pow(speed, 0.2);
+    s.overlap = std::pow(5 * mass * speed * speed / (4 * k), 0.4);
+    s.frequency = std::sqrt(1.5 * k * std::sqrt(s.overlap) / mass);
+    s.damping_ratio = c[1] * k * std::sqrt(s.overlap) / (2 * mass * s.frequency);
+    s.collision_time = 3.2180654597 * std::pow(mass / k, 0.4) * std::pow(speed, -0.2);
+    s.restitution = laws::viscoelastic_restitution(x);
+    return s;
+}
+
+double area(const Scene& scene) {
+    const Vec size = scene.domain.upper - scene.domain.lower;
+    return size.x * size.y;
+}
+
+} // namespace
+
+double lattice_ratio_bound(int reach, double delta) {
+    return reach * (2 - delta) / (2 * std::numbers::sqrt2);
+}
+
+std::vector<double> pair_table(const Scene& scene) {
+    const std::size_t n = scene.materials.size();
+    std::vector<double> table(n * n * laws::pair_coefficients);
+    const bool linear = scene.md.normal == scene::NormalLaw::linear_dashpot;
+    for (std::size_t a = 0; a < n; ++a)
+        for (std::size_t b = 0; b < n; ++b) {
+            const scene::Material &p = scene.materials[a], &q = scene.materials[b];
+            double* c = table.data() + (a * n + b) * laws::pair_coefficients;
+            c[0] = linear ? 2 * p.stiffness * q.stiffness / (p.stiffness + q.stiffness)
+                          : (4.0 / 3.0) / (reduced_modulus(p) + reduced_modulus(q));
+            c[1] = linear ? 0.5 * (p.damping + q.damping) : 0.5 * (p.dissipation + q.dissipation);
+            c[2] = std::min(p.tangential_damping, q.tangential_damping);
+            c[3] = std::min(p.friction, q.friction);
+            for (const scene::MaterialPair& pair : scene.pairs) {
+                const bool here = (pair.first == p.name && pair.second == q.name) ||
+                                  (pair.first == q.name && pair.second == p.name);
+                if (!here) continue;
+                const double elastic = linear ? pair.stiffness : (2.0 / 3.0) * pair.young;
+                const double values[] = {elastic, linear ? pair.damping : pair.dissipation, pair.tangential_damping,
+                                         pair.friction};
+                for (int k = 0; k < laws::pair_coefficients; ++k)
+                    if (values[k] >= 0) c[k] = values[k];
+            }
+        }
+    return table;
+}
+
+Needs analyse(const Scene& scene, const std::vector<scene::GrainState>& grains) {
+    Needs needs;
+    needs.radius_min = needs.mass_min = std::numeric_limits<double>::infinity();
+    double covered = 0;
+    for (const scene::GrainState& g : grains) {
+        const bool later = g.insert_at > -std::numeric_limits<double>::infinity();
+        (later ? needs.poured : needs.grains) += 1;
+        needs.radius_min = std::min(needs.radius_min, g.radius);
+        needs.radius_max = std::max(needs.radius_max, g.radius);
+        needs.mass_min = std::min(needs.mass_min, g.mass);
+        needs.mass_max = std::max(needs.mass_max, g.mass);
+        if (g.material != grains.front().material) needs.many_materials = true;
+        needs.spinning = needs.spinning || g.omega != 0;
+        covered += std::numbers::pi * g.radius * g.radius;
+    }
+    if (grains.empty()) needs.radius_min = needs.radius_max = needs.mass_min = needs.mass_max = 0;
+    needs.many_radii = needs.radius_min != needs.radius_max;
+    const std::vector<double> table = pair_table(scene);
+    if (scene.md.tangential != scene::TangentialLaw::none)
+        for (std::size_t p = 0; p < table.size(); p += laws::pair_coefficients)
+            needs.friction = needs.friction || (table[p + 2] > 0 && table[p + 3] > 0);
+    needs.walls = !scene.walls.empty();
+    for (const scene::Wall& w : scene.walls) needs.moving_walls = needs.moving_walls || !w.motion.empty();
+    needs.gravity = norm(scene.domain.gravity) > 0;
+    needs.packing_fraction = covered / area(scene);
+    return needs;
+}
+
+Derived derive(const Scene& scene, const Needs& needs) {
+    Derived d;
+    if (needs.radius_max == 0) {
+        d.collision_time = d.critical_dt = d.recommended_dt = std::numeric_limits<double>::infinity();
+        d.restitution_min = 1;
+        return d;
+    }
+    d.collision_time = d.critical_dt = d.recommended_dt = std::numeric_limits<double>::infinity();
+    d.restitution_max = 0;
+    const int order = order_of(scene.md.integrator);
+    const std::vector<double> table = pair_table(scene);
+    // Two of the lightest grains make the stiffest contact, two of the heaviest (or one on a wall) the deepest.
+    const double light = 0.5 * needs.mass_min, heavy = needs.mass_max;
+    const double inertia = scene.md.inertia == scene::Inertia::disc ? 0.5 : 0.4;
+    for (std::size_t p = 0; p < table.size(); p += laws::pair_coefficients) {
+        const double* c = table.data() + p;
+        const Stiffness fast = contact_stiffness(scene, c, light, 0.5 * needs.radius_min, scene.md.max_speed);
+        const Stiffness deep = contact_stiffness(scene, c, heavy, needs.radius_max, scene.md.max_speed);
+        d.collision_time = std::min(d.collision_time, fast.collision_time);
+        d.critical_dt = std::min(d.critical_dt, stable_phase(order, fast.damping_ratio) / fast.frequency);
+        d.recommended_dt = std::min(d.recommended_dt, fast.collision_time / 50);
+        d.restitution_min = std::min({d.restitution_min, fast.restitution, deep.restitution});
+        d.restitution_max = std::max({d.restitution_max, fast.restitution, deep.restitution});
+        d.overlap_ratio = std::max(d.overlap_ratio, deep.overlap / needs.radius_min);
+        if (needs.friction && c[2] > 0 && c[3] > 0) { // 1/m_t of two light grains (1.10)
+            const double tangential_mass = 1 / (2 / needs.mass_min * (1 + 1 / inertia));
+            d.critical_dt = std::min(d.critical_dt, stable_damping(order) * tangential_mass / c[2]);
+            d.recommended_dt = std::min(d.recommended_dt, 0.15 * tangential_mass / c[2]);
+        }
+    }
+    d.recommended_dt = std::min(d.recommended_dt, 0.25 * d.critical_dt);
+    return d;
+}
+
+// ---- the plan ---------------------------------------------------------------------------------------------------
+
+namespace {
+
+// Site edges that divide the domain and keep dx^2 + dy^2 <= r_min^2, 2 R_max <= reach min(dx, dy) (items 2-6).
+// Returns false if no reach up to 4 serves.
+bool fit_lattice(const Scene& scene, const Needs& needs, Plan& plan) {
+    const Vec size = plan.upper - plan.lower;
+    const double edge = (2 - scene.md.delta) * needs.radius_min / std::numbers::sqrt2;
+    plan.columns = static_cast<std::int32_t>(std::ceil(size.x / edge));
+    plan.rows = static_cast<std::int32_t>(std::ceil(size.y / edge));
+    plan.site_x = size.x / plan.columns;
+    plan.site_y = size.y / plan.rows;
+    for (plan.reach = 2; plan.reach <= 4; ++plan.reach)
+        if (2 * needs.radius_max <= plan.reach * std::min(plan.site_x, plan.site_y)) break;
+    const int least = 2 * plan.reach + 1;
+    const bool wide_enough = (!scene.domain.periodic[0] || plan.columns >= least) &&
+                             (!scene.domain.periodic[1] || plan.rows >= least);
+    return plan.reach <= 4 && wide_enough;
+}
+
+void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
+    const NeighbourMethod wanted = scene.md.neighbours;
+    const double ratio = needs.radius_min > 0 ? needs.radius_max / needs.radius_min : 1;
+    const bool asks = wanted == NeighbourMethod::lattice || wanted == NeighbourMethod::lattice_half;
+    const bool fits = needs.radius_max > 0 && fit_lattice(scene, needs, plan);
+    if (asks && needs.radius_max > 0 && !fits)
+        fail(Exit::invalid_input,
+             "md.neighbours = \"lattice\": radius ratio {:.4g} and domain do not suit the lattice; with delta = {} the "
+             "9x9 mask serves ratios up to {:.4g} and a periodic side needs 2 reach + 1 sites (here {} x {} sites, "
+             "reach {}). Use md.neighbours = \"auto\" or \"link-cells\".",
+             ratio, scene.md.delta, lattice_ratio_bound(4, scene.md.delta), plan.columns, plan.rows, plan.reach);
+    plan.neighbours = wanted;
+    if (wanted != NeighbourMethod::automatic) {
+        if (asks && needs.radius_max == 0) plan.neighbours = NeighbourMethod::brute_force;
+        plan.chosen.push_back("neighbours: as asked for in md.neighbours");
+        return;
+    }
+    const double n = static_cast<double>(needs.grains + needs.poured);
+    const double sites = static_cast<double>(plan.columns) * plan.rows;
+    if (n <= 32) {
+        plan.neighbours = NeighbourMethod::brute_force;
+        plan.chosen.push_back("neighbours: brute force, 32 grains or fewer");
+    } else if (!fits) {
+        plan.neighbours = NeighbourMethod::link_cells;
+        plan.chosen.push_back(fmt::format("neighbours: link cells, radius ratio {:.3g} or a small period exceeds the lattice (bound {:.3g})", ratio, lattice_ratio_bound(4, scene.md.delta)));
+    } else if (plan.reach > 3 || sites > 64 * n) {
+        plan.neighbours = NeighbourMethod::link_cells;
+        plan.chosen.push_back(fmt::format("neighbours: link cells, the lattice would have {:.3g} sites per grain and reach {}", sites / n, plan.reach));
+    } else {
+        plan.neighbours = NeighbourMethod::lattice_half;
+        plan.may_switch = true;
+        plan.chosen.push_back(fmt::format("neighbours: lattice, half {0}x{0} mask; radius ratio {1:.4g} <= {2:.4g}; link cells take over if two centres meet in a site", 2 * plan.reach + 1, ratio, lattice_ratio_bound(plan.reach, scene.md.delta)));
+    }
+}
+
+void note_skipped(const Scene& scene, const Needs& needs, Plan& plan) {
+    const auto skip = [&](bool unused, const char* what) {
+        if (unused) plan.skipped.emplace_back(what);
+    };
+    skip(!plan.spin, "rotation: no angle, spin or torque columns and kernels (no friction couples to spin)");
+    skip(!plan.many_radii, "radii: one radius, the distance stage compares with a constant");
+    skip(!plan.many_materials, "materials: one material, no gather of coefficients");
+    skip(!plan.walls, "walls: none");
+    skip(plan.walls && !needs.moving_walls, "wall motion: all walls are fixed");
+    skip(!needs.gravity, "gravity: none");
+    skip(!scene.domain.periodic[0] && !scene.domain.periodic[1], "periodic images: the domain is open");
+    skip(true, "third dimension");
+}
+
+void check_time_step(const Scene& scene, const Derived& derived, double dt) {
+    if (!(dt > derived.critical_dt)) return;
+    fail(Exit::invalid_input,
+         "md.dt = {:.4g} s is above the critical time step {:.4g} s of the stiffest contact with {} (allowed: 0 to that; "
+         "recommended: {:.3g} s). Lower md.dt, leave it out, or soften the material.",
+         dt, derived.critical_dt, scene.md.integrator == scene::Integrator::gear4 ? "gear4" : scene.md.integrator == scene::Integrator::gear5 ? "gear5" : "gear6", derived.recommended_dt);
+}
+
+} // namespace
+
+Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, simd::Isa isa, int threads) {
+    Plan plan;
+    plan.isa = isa;
+    plan.threads = threads;
+    plan.lower = scene.domain.lower;
+    plan.upper = scene.domain.upper;
+    plan.order = order_of(scene.md.integrator);
+    plan.normal = static_cast<int>(scene.md.normal);
+    plan.tangential = needs.friction ? static_cast<int>(scene.md.tangential) : 0;
+    plan.spin = needs.friction || needs.spinning || scene.domain.gravity.z != 0;
+    plan.many_materials = needs.many_materials;
+    plan.many_radii = needs.many_radii;
+    plan.walls = needs.walls;
+    plan.inertia_factor = scene.md.inertia == scene::Inertia::disc ? 0.5 : 0.4;
+    plan.dt = scene.md.dt > 0 ? scene.md.dt : derived.recommended_dt;
+    if (!std::isfinite(plan.dt)) plan.dt = scene.md.duration > 0 ? scene.md.duration / 100 : 1e-3;
+    check_time_step(scene, derived, plan.dt);
+    if (scene.md.max_speed * plan.dt > 0.1 * needs.radius_min && needs.radius_min > 0)
+        fail(Exit::invalid_input,
+             "md.dt = {:.4g} s: a grain of md.max_speed = {} m/s moves {:.3g} m per step, more than 0.1 R_min = {:.3g} m; "
+             "it could pass through a wall. Lower md.dt below {:.3g} s.",
+             plan.dt, scene.md.max_speed, scene.md.max_speed * plan.dt, 0.1 * needs.radius_min, 0.1 * needs.radius_min / scene.md.max_speed);
+    plan.steps = std::llround(scene.md.duration / plan.dt);
+    choose_neighbours(scene, needs, plan);
+    plan.chosen.insert(plan.chosen.begin(), fmt::format("kernels: {} ({} threads{}{})", simd::isa_name(isa), threads, plan.threads_reason.empty() ? "" : ", from ", plan.threads_reason));
+    note_skipped(scene, needs, plan);
+    return plan;
+}
+
+} // namespace sandlane::md

@@ -1,0 +1,430 @@
+#include "md/simulation.hpp"
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace sandlane::md {
+
+using scene::NeighbourMethod;
+
+namespace {
+
+constexpr std::int64_t sort_interval = 256; // steps; fixed, because link cells add forces in storage order
+constexpr std::int32_t cell_tile_rows = 4;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool is_lattice(NeighbourMethod method) {
+    return method == NeighbourMethod::lattice || method == NeighbourMethod::lattice_half;
+}
+
+} // namespace
+
+Simulation::Simulation(scene::Scene scene, const std::vector<scene::GrainState>& grains, const Needs& needs, Plan plan)
+    : scene_(std::move(scene)), needs_(needs), plan_(std::move(plan)), kernels_(&simd::md_kernels(plan_.isa)),
+      coefficients_(pair_table(scene_)), walls_(scene_, plan_, needs_) {
+    if (is_lattice(plan_.neighbours))
+        lattice_ = Lattice(scene_, plan_, needs_.radius_max);
+    else
+        cells_ = LinkCells(scene_, plan_, needs_.radius_max, plan_.neighbours == NeighbourMethod::brute_force);
+    start(grains);
+}
+
+// Accelerations before the first step: without them every velocity would keep an error of a dt/2 (4.7).
+void Simulation::start(const std::vector<scene::GrainState>& grains) {
+    state_.order = plan_.order;
+    state_.dofs = plan_.spin ? 3 : 2;
+    for (const scene::GrainState& g : grains)
+        if (g.insert_at > -infinity)
+            waiting_.push_back(g);
+        else
+            state_.append(g, plan_, plan_.dt);
+    std::stable_sort(waiting_.begin(), waiting_.end(),
+                     [](const auto& a, const auto& b) { return a.insert_at < b.insert_at; });
+    sort_by_place();
+    bin();
+    compute_forces();
+    const double half_dt2 = 0.5 * plan_.dt * plan_.dt;
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+        const double* f = state_.force.data() + i * simd::force_fields;
+        state_.value(i, 0, 2) = half_dt2 * (f[0] * state_.inverse_mass[i] + scene_.domain.gravity.x);
+        state_.value(i, 1, 2) = half_dt2 * (f[1] * state_.inverse_mass[i] + scene_.domain.gravity.y);
+        if (plan_.spin) state_.value(i, 2, 2) = half_dt2 * (f[2] * state_.spin_factor[i] + scene_.domain.gravity.z);
+    }
+    state_.force.fill(0.0);
+}
+
+// ---- the time step ------------------------------------------------------------------------------------------------
+
+void Simulation::run(std::int64_t steps) {
+    const std::int64_t end = step_ + steps;
+    while (step_ < end) {
+        insert_due();
+        if (step_ % sort_interval == 0 || !sorted_) sort_by_place();
+        const std::int64_t stop = next_stop(end);
+        integrate(false, true);
+        for (;;) {
+            compute_forces();
+            ++step_;
+            if (step_ == stop) break;
+            integrate(true, true);
+        }
+        integrate(true, false);
+    }
+}
+
+std::int64_t Simulation::next_stop(std::int64_t end) const {
+    std::int64_t stop = std::min(end, (step_ / sort_interval + 1) * sort_interval);
+    if (next_waiting_ < waiting_.size()) {
+        const double at = std::ceil(waiting_[next_waiting_].insert_at / plan_.dt);
+        const double limited = std::clamp(at, static_cast<double>(step_ + 1), static_cast<double>(stop));
+        stop = static_cast<std::int64_t>(limited);
+    }
+    return stop;
+}
+
+void Simulation::integrate(bool correct, bool predict) {
+    const auto& table = correct ? (predict ? kernels_->advance : kernels_->correct) : kernels_->predict;
+    const simd::MotionKernel kernel = table[plan_.order - 4][plan_.spin ? 1 : 0];
+    const simd::MotionView view = motion_view();
+    const std::size_t n = state_.size();
+    const bool on_lattice = predict && is_lattice(plan_.neighbours);
+    std::vector<simd::MotionResult> results(state_.tiles());
+    for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
+        const std::size_t begin = tile * tile_size, end = std::min(n, begin + tile_size);
+        results[tile] = kernel(view, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end));
+        if (on_lattice && results[tile].outside == 0) lattice_.leave(state_, kernels_->bin, begin, end);
+    });
+    if (!predict) return;
+    double speed2 = 0;
+    std::int64_t outside = 0;
+    for (const simd::MotionResult& r : results) {
+        speed2 = std::max(speed2, r.largest_speed2);
+        outside += r.outside;
+    }
+    largest_speed_ = std::sqrt(speed2);
+    if (largest_speed_ * plan_.dt > 0.1 * needs_.radius_min)
+        fail(Exit::unstable,
+             "step {}, t = {:.6g} s: a grain moves at {:.4g} m/s, {:.3g} m per step, more than 0.1 R_min = {:.3g} m. The "
+             "time step is too large for this flow, or the run has become unstable; lower md.dt below {:.3g} s.",
+             step_, time(), largest_speed_, largest_speed_ * plan_.dt, 0.1 * needs_.radius_min,
+             0.1 * needs_.radius_min / largest_speed_);
+    walls_.account(1.25 * plan_.dt * (largest_speed_ + walls_.fastest()));
+    if (outside > 0) return handle_outside();
+    if (on_lattice)
+        for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
+            lattice_.enter(state_, tile * tile_size, std::min(n, (tile + 1) * tile_size));
+        });
+}
+
+// Forces at the predicted positions, time (step + 1) dt; at the start, of the initial state.
+void Simulation::compute_forces() {
+    walls_.move_to(static_cast<double>(force_step_) * plan_.dt);
+    pair_forces();
+    wall_forces();
+    ++force_step_;
+}
+
+void Simulation::pair_forces() {
+    const simd::PairKernel pair = kernels_->pair[plan_.normal][plan_.tangential][plan_.many_materials ? 1 : 0];
+    const simd::PairView pairs = pair_view();
+    const bool on_lattice = is_lattice(plan_.neighbours);
+    if (!on_lattice) cells_.build(state_, kernels_->bin, plan_.threads);
+    const std::int32_t height = on_lattice ? lattice_.tile_rows() : cell_tile_rows;
+    const std::int32_t rows = on_lattice ? lattice_.rows() : cells_.rows();
+    const auto tiles = static_cast<std::size_t>((rows + height - 1) / height);
+    const simd::LatticeView sites = lattice_.view();
+    const simd::CellView cells = cells_.view();
+    const auto& lattice_kernels =
+        plan_.neighbours == NeighbourMethod::lattice_half ? kernels_->lattice_half : kernels_->lattice_full;
+    const simd::LatticeKernel lattice_kernel = lattice_kernels[plan_.many_radii ? 1 : 0];
+    std::vector<simd::SweepResult> results(tiles);
+    for_tiles_dynamic(tiles, plan_.threads, [&](std::size_t tile) {
+        const std::int32_t begin = static_cast<std::int32_t>(tile) * height, end = std::min(rows, begin + height);
+        results[tile] = on_lattice ? lattice_kernel(sites, pairs, pair, begin, end)
+                                   : kernels_->cells(cells, pairs, pair, begin, end);
+    });
+    double overlap = 0;
+    std::int64_t occupied = 0;
+    for (const simd::SweepResult& r : results) {
+        overlap = std::max(overlap, r.largest_overlap);
+        occupied += r.occupied;
+    }
+    if (occupied != static_cast<std::int64_t>(state_.size())) {
+        const Lattice::Clash clash = lattice_.find_clash(state_);
+        const auto a = static_cast<std::size_t>(clash.first), b = static_cast<std::size_t>(clash.second);
+        const std::string what = fmt::format(
+            "DELTA_EXCEEDED: grains {} and {} share a lattice site at step {}: their overlap exceeds delta = {} of R_min",
+            state_.id[a], state_.id[b], step_, scene_.md.delta);
+        if (!plan_.may_switch)
+            fail(Exit::unstable, "{}. Use md.neighbours = \"auto\", a larger md.delta, a stiffer material or a smaller md.dt.",
+                 what);
+        use_link_cells(what);
+        state_.force.fill(0.0);
+        return pair_forces();
+    }
+    check_overlap(overlap);
+}
+
+void Simulation::wall_forces() {
+    if (walls_.empty()) return;
+    const bool list = plan_.isa != simd::Isa::scalar;
+    const WallResult worst =
+        walls_.add_forces(state_, coefficients_, static_cast<int>(scene_.materials.size()), plan_.threads, list);
+    if (worst.largest_ratio < 0.9) return;
+    fail(Exit::unstable,
+         "step {}, t = {:.6g} s: grain {} overlaps wall \"{}\" by {:.3g} of its radius (allowed: 0.9). Stiffen the "
+         "material, lower md.dt, or check the wall's motion.",
+         step_, time(), state_.id[static_cast<std::size_t>(worst.grain)],
+         scene_.walls[static_cast<std::size_t>(worst.wall)].name, worst.largest_ratio);
+}
+
+simd::MotionView Simulation::motion_view() {
+    const Vec size = plan_.upper - plan_.lower, g = scene_.domain.gravity;
+    const bool px = scene_.domain.periodic[0], py = scene_.domain.periodic[1];
+    return {state_.gear.data(),
+            state_.record.data(),
+            state_.force.data(),
+            state_.inverse_mass.data(),
+            state_.spin_factor.data(),
+            state_.radius.data(),
+            state_.inverse_radius.data(),
+            state_.image_x.data(),
+            state_.image_y.data(),
+            static_cast<std::int64_t>(state_.size()),
+            plan_.dt,
+            0.5 * plan_.dt * plan_.dt,
+            1.0 / plan_.dt,
+            g.x,
+            g.y,
+            g.z,
+            plan_.lower.x,
+            plan_.lower.y,
+            plan_.upper.x,
+            plan_.upper.y,
+            px ? size.x : 0.0,
+            py ? size.y : 0.0};
+}
+
+simd::PairView Simulation::pair_view() {
+    const Vec size = plan_.upper - plan_.lower;
+    const bool px = scene_.domain.periodic[0], py = scene_.domain.periodic[1];
+    return {state_.record.data(),  state_.material.data(),        state_.force.data(),
+            px ? size.x : 0.0,     py ? size.y : 0.0,             px ? 0.5 * size.x : infinity,
+            py ? 0.5 * size.y : infinity, coefficients_.data(),   static_cast<std::int32_t>(scene_.materials.size())};
+}
+
+// ---- between steps ------------------------------------------------------------------------------------------------
+
+// Storage order: strips of eight rows, column by column, so that neighbours lie close in memory.
+void Simulation::sort_by_place() {
+    sorted_ = true;
+    constexpr std::int64_t strip = 8;
+    const double edge = std::max(2 * needs_.radius_min, 1e-4 * norm(plan_.upper - plan_.lower));
+    const auto columns = static_cast<std::int64_t>((plan_.upper.x - plan_.lower.x) / edge) + 2;
+    const std::size_t n = state_.size();
+    std::vector<std::int64_t> key(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto column = static_cast<std::int64_t>((state_.value(i, 0, 0) - plan_.lower.x) / edge);
+        const auto row = static_cast<std::int64_t>((state_.value(i, 1, 0) - plan_.lower.y) / edge);
+        key[i] = (row / strip * columns + column) * strip + row % strip;
+    }
+    std::vector<std::uint32_t> order(n);
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
+    state_.reorder(order);
+    walls_.invalidate();
+    if (is_lattice(plan_.neighbours)) lattice_.clear(state_);
+    state_.refresh_records(plan_.dt);
+}
+
+// Puts every grain on the lattice at the positions of the records.
+void Simulation::bin() {
+    if (!is_lattice(plan_.neighbours)) return;
+    lattice_.clear(state_);
+    lattice_.leave(state_, kernels_->bin, 0, state_.size());
+    lattice_.enter(state_, 0, state_.size());
+}
+
+bool Simulation::has_room(const scene::GrainState& grain) const {
+    const Vec size = plan_.upper - plan_.lower;
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+        double dx = state_.value(i, 0, 0) - grain.position.x, dy = state_.value(i, 1, 0) - grain.position.y;
+        if (scene_.domain.periodic[0]) dx -= size.x * std::nearbyint(dx / size.x);
+        if (scene_.domain.periodic[1]) dy -= size.y * std::nearbyint(dy / size.y);
+        const double reach = state_.radius[i] + grain.radius;
+        if (dx * dx + dy * dy < reach * reach) return false;
+    }
+    bool room = true;
+    walls_.for_touching(grain.position, grain.radius, [&](std::size_t, const WallContact&) { room = false; });
+    return room;
+}
+
+void Simulation::insert_due() {
+    const std::int64_t retry = 100; // steps until a grain that found no room tries again
+    bool inserted = false;
+    while (next_waiting_ < waiting_.size() && waiting_[next_waiting_].insert_at <= time() + 0.5 * plan_.dt) {
+        scene::GrainState grain = waiting_[next_waiting_];
+        if (!has_room(grain)) {
+            ++delayed_;
+            waiting_[next_waiting_].insert_at = static_cast<double>(step_ + retry) * plan_.dt;
+            const auto from = waiting_.begin() + static_cast<std::ptrdiff_t>(next_waiting_);
+            std::stable_sort(from, waiting_.end(), [](const auto& a, const auto& b) { return a.insert_at < b.insert_at; });
+            continue;
+        }
+        state_.append(grain, plan_, plan_.dt);
+        const std::size_t i = state_.size() - 1;
+        state_.value(i, 0, 2) = 0.5 * plan_.dt * plan_.dt * scene_.domain.gravity.x;
+        state_.value(i, 1, 2) = 0.5 * plan_.dt * plan_.dt * scene_.domain.gravity.y;
+        ++next_waiting_;
+        inserted = true;
+    }
+    if (inserted) sort_by_place();
+}
+
+// Grains whose predicted centre left an open side are removed and counted, or end the run.
+void Simulation::handle_outside() {
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+        const double* r = state_.record.data() + i * simd::record_fields;
+        const bool inside = r[0] >= plan_.lower.x && r[0] < plan_.upper.x && r[1] >= plan_.lower.y && r[1] < plan_.upper.y;
+        if (inside) {
+            kept.push_back(static_cast<std::uint32_t>(i));
+            continue;
+        }
+        if (!std::isfinite(r[0]) || !std::isfinite(r[1]) || !std::isfinite(r[2]) || !std::isfinite(r[3]))
+            fail(Exit::unstable, "step {}, t = {:.6g} s: grain {} has position ({}, {}): the run is unstable; lower md.dt",
+                 step_, time(), state_.id[i], r[0], r[1]);
+        if (scene_.domain.outside == scene::Outside::error)
+            fail(Exit::unstable,
+                 "step {}, t = {:.6g} s: grain {} left the domain at ({:.6g}, {:.6g}). Enlarge the domain, add walls, or set "
+                 "domain.outside = \"remove\".",
+                 step_, time(), state_.id[i], r[0], r[1]);
+        ++removed_;
+    }
+    state_.reorder(kept);
+    walls_.invalidate();
+    bin();
+}
+
+void Simulation::use_link_cells(const std::string& reason) {
+    plan_.neighbours = NeighbourMethod::link_cells;
+    plan_.may_switch = false;
+    cells_ = LinkCells(scene_, plan_, needs_.radius_max, false);
+    lattice_ = Lattice();
+    events_.push_back(reason + "; link cells from here on");
+}
+
+void Simulation::check_overlap(double overlap) const {
+    if (overlap > needs_.radius_min) fail_overlap(overlap);
+}
+
+void Simulation::fail_overlap(double overlap) const {
+    const Observables now = observe();
+    fail(Exit::unstable,
+         "step {}, t = {:.6g} s: two grains overlap by {:.4g} m, more than R_min = {:.4g} m (largest overlap of the last "
+         "complete step: {:.3g} R). The material is too soft for this load, or the time step too large.",
+         step_, time(), overlap, needs_.radius_min, now.largest_overlap);
+}
+
+// ---- views of the state -------------------------------------------------------------------------------------------
+
+Observables Simulation::observe() const {
+    Walls now = walls_;
+    now.move_to(time());
+    return md::observe(scene_, plan_, state_, now, coefficients_);
+}
+
+std::vector<double> Simulation::forces(simd::Isa isa, NeighbourMethod method) {
+    const Plan plan = plan_;
+    const auto force_step = force_step_;
+    Lattice lattice = lattice_;
+    LinkCells cells = cells_;
+    plan_.isa = isa;
+    plan_.neighbours = method;
+    plan_.may_switch = false;
+    kernels_ = &simd::md_kernels(isa);
+    state_.refresh_records(plan_.dt);
+    walls_.invalidate();
+    if (is_lattice(method))
+        lattice_ = Lattice(scene_, plan_, needs_.radius_max);
+    else
+        cells_ = LinkCells(scene_, plan_, needs_.radius_max, method == NeighbourMethod::brute_force);
+    bin();
+    force_step_ = step_;
+    compute_forces();
+    std::vector<double> result(state_.force.begin(), state_.force.begin() + static_cast<std::ptrdiff_t>(state_.size()) * simd::force_fields);
+    state_.force.fill(0.0);
+    force_step_ = force_step;
+    plan_ = plan;
+    kernels_ = &simd::md_kernels(plan_.isa);
+    lattice_ = std::move(lattice);
+    cells_ = std::move(cells);
+    return result;
+}
+
+namespace {
+
+std::vector<std::size_t> by_id(const State& state) {
+    std::vector<std::size_t> order(state.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return state.id[a] < state.id[b]; });
+    return order;
+}
+
+double into(double x, double lower, double period) {
+    return period > 0 ? x - period * std::floor((x - lower) / period) : x;
+}
+
+} // namespace
+
+analysis::Snapshot Simulation::snapshot() const {
+    analysis::Snapshot s;
+    s.step = step_;
+    s.time = time();
+    s.lower = plan_.lower;
+    s.upper = plan_.upper;
+    s.periodic_x = scene_.domain.periodic[0];
+    s.periodic_y = scene_.domain.periodic[1];
+    const Observables now = observe();
+    const Vec size = s.upper - s.lower;
+    const double rate = 1 / plan_.dt;
+    for (const std::size_t i : by_id(state_)) {
+        s.id.push_back(state_.id[i]);
+        s.x.push_back(into(state_.value(i, 0, 0), s.lower.x, s.periodic_x ? size.x : 0));
+        s.y.push_back(into(state_.value(i, 1, 0), s.lower.y, s.periodic_y ? size.y : 0));
+        s.angle.push_back(plan_.spin ? state_.value(i, 2, 0) : 0.0);
+        s.vx.push_back(state_.value(i, 0, 1) * rate);
+        s.vy.push_back(state_.value(i, 1, 1) * rate);
+        s.omega.push_back(plan_.spin ? state_.value(i, 2, 1) * rate : 0.0);
+        s.radius.push_back(state_.radius[i]);
+        s.mass.push_back(state_.mass[i]);
+        s.pressure.push_back(now.pressure[i]);
+        s.material.push_back(state_.material[i]);
+        s.image_x.push_back(state_.image_x[i]);
+        s.image_y.push_back(state_.image_y[i]);
+    }
+    s.walls = walls_.shapes(time());
+    return s;
+}
+
+Hash128 Simulation::state_hash() const {
+    std::vector<double> values;
+    for (const std::size_t i : by_id(state_)) {
+        values.push_back(static_cast<double>(state_.id[i]));
+        for (int dof = 0; dof < state_.dofs; ++dof)
+            for (int k = 0; k < state_.order; ++k) values.push_back(state_.value(i, dof, k));
+        values.push_back(state_.radius[i]);
+        values.push_back(state_.mass[i]);
+        values.push_back(state_.image_x[i]);
+        values.push_back(state_.image_y[i]);
+    }
+    values.push_back(static_cast<double>(step_));
+    return hash_bytes(values.data(), values.size() * sizeof(double));
+}
+
+} // namespace sandlane::md

@@ -1,0 +1,88 @@
+// Force-based molecular dynamics of discs: the time step, and what happens between steps.
+#pragma once
+
+#include "analysis/snapshot.hpp"
+#include "core/hash.hpp"
+#include "md/lattice.hpp"
+#include "md/link_cells.hpp"
+#include "md/observables.hpp"
+#include "md/plan.hpp"
+#include "md/state.hpp"
+#include "md/walls.hpp"
+#include "scene/scene.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sandlane::md {
+
+class Simulation {
+public:
+    Simulation(scene::Scene scene, const std::vector<scene::GrainState>& grains, const Needs& needs, Plan plan);
+
+    // Runs n time steps; afterwards the state stands at time() = step() dt.
+    void run(std::int64_t steps);
+
+    [[nodiscard]] std::int64_t step() const { return step_; }
+    [[nodiscard]] double time() const { return static_cast<double>(step_) * plan_.dt; }
+    [[nodiscard]] const Plan& plan() const { return plan_; }
+    [[nodiscard]] const scene::Scene& scene() const { return scene_; }
+    [[nodiscard]] const State& state() const { return state_; }
+    [[nodiscard]] std::size_t bytes() const { return state_.bytes() + lattice_.bytes() + cells_.bytes(); }
+
+    // Energies, contacts and overlaps of the present state; see observables.hpp.
+    [[nodiscard]] Observables observe() const;
+    [[nodiscard]] analysis::Snapshot snapshot() const;
+    // 128-bit hash over the id-ordered state: equal hashes mean equal bits.
+    [[nodiscard]] Hash128 state_hash() const;
+
+    // Forces of the present state [particle][force_fields] by the plan's kernels, or by another table (reference).
+    [[nodiscard]] std::vector<double> forces(simd::Isa isa, scene::NeighbourMethod method);
+
+    [[nodiscard]] std::int64_t removed() const { return removed_; }
+    [[nodiscard]] std::int64_t delayed() const { return delayed_; }
+    [[nodiscard]] const std::vector<std::string>& events() const { return events_; }
+
+    // Complete state for checkpoints; restore() needs a Simulation made from the same scene.
+    [[nodiscard]] std::string serialise() const;
+    void restore(const std::string& bytes);
+
+private:
+    void start(const std::vector<scene::GrainState>& grains);
+    void sort_by_place();
+    void insert_due();
+    [[nodiscard]] bool has_room(const scene::GrainState& grain) const;
+
+    void integrate(bool correct, bool predict);
+    void bin();
+    void pair_forces();
+    void wall_forces();
+    void compute_forces();
+    void handle_outside();
+    void use_link_cells(const std::string& reason);
+    [[noreturn]] void fail_overlap(double overlap) const;
+    void check_overlap(double overlap) const;
+    [[nodiscard]] simd::MotionView motion_view();
+    [[nodiscard]] simd::PairView pair_view();
+    [[nodiscard]] std::int64_t next_stop(std::int64_t end) const;
+
+    scene::Scene scene_;
+    Needs needs_;
+    Plan plan_;
+    const simd::MdKernels* kernels_;
+    std::vector<double> coefficients_;
+    State state_;
+    Lattice lattice_;
+    LinkCells cells_;
+    Walls walls_;
+    std::vector<scene::GrainState> waiting_; // poured grains, by time of insertion
+    std::size_t next_waiting_ = 0;
+    std::int64_t step_ = 0, force_step_ = 0, removed_ = 0, delayed_ = 0;
+    double largest_speed_ = 0;
+    std::vector<std::string> events_;
+    bool sorted_ = false;
+};
+
+} // namespace sandlane::md

@@ -1,0 +1,166 @@
+// Forces of walls on grains: candidate list, its upkeep, and the kernels, one per law of laws.def.
+#include "core/parallel.hpp"
+#include "md/walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandlane::md {
+
+namespace {
+
+template <class Normal, class Tangential>
+WallResult wall_forces(const Walls& walls, State& state, const double* coefficients, int materials,
+                       const NearWall* begin, const NearWall* end) {
+    WallResult result;
+    for (const NearWall* n = begin; n != end; ++n) {
+        const std::size_t i = n->grain;
+        const double* r = state.record.data() + i * simd::record_fields;
+        const WallContact c = walls.contact(n->element, {r[0], r[1], 0});
+        const double reach = r[5] + c.radius;
+        if (!c.valid || c.distance >= reach) continue;
+        const WallElement& element = walls.elements()[n->element];
+        const double* k = coefficients + (state.material[i] * materials + element.material) * laws::pair_coefficients;
+        const laws::PairState<double> pair{c.distance * c.direction.x, c.distance * c.direction.y,
+                                           c.velocity.x - r[2],        c.velocity.y - r[3],
+                                           r[4] + c.spin,              reach,
+                                           r[6] + c.inverse_radius};
+        const auto f = laws::pair_force<Normal, Tangential, double>(pair, {k[0], k[1], k[2], k[3]});
+        double* force = state.force.data() + i * simd::force_fields;
+        force[0] += f.x;
+        force[1] += f.y;
+        force[2] += f.tangential;
+        const double ratio = f.overlap / r[5];
+        if (ratio > result.largest_ratio) result = {ratio, static_cast<std::int64_t>(i), element.wall};
+    }
+    return result;
+}
+
+template <class Normal> WallKernel with_tangential(int tangential) {
+    int position = 0;
+    WallKernel kernel = nullptr;
+#define TANGENTIAL(type, choice)                                                                                       \
+    if (position++ == tangential) kernel = wall_forces<Normal, laws::type>;
+#include "laws/laws.def"
+    return kernel;
+}
+
+} // namespace
+
+WallKernel wall_kernel(int normal, int tangential) {
+    int position = 0;
+    WallKernel kernel = nullptr;
+#define NORMAL(type, choice)                                                                                           \
+    if (position++ == normal) kernel = with_tangential<laws::type>(tangential);
+#include "laws/laws.def"
+    return kernel;
+}
+
+namespace {
+
+// Coarse grid over the domain: which elements come within `reach` of a cell.
+class ElementGrid {
+public:
+    ElementGrid(const Walls& walls, Vec lower, Vec upper, double reach, std::size_t grains)
+        : lower_(lower), width_(upper.x - lower.x), height_(upper.y - lower.y) {
+        const double edge = std::max({4 * reach, width_ / 256, height_ / 256,
+                                      std::sqrt(width_ * height_ / static_cast<double>(grains + 1))});
+        columns_ = std::max(1, static_cast<int>(width_ / edge));
+        rows_ = std::max(1, static_cast<int>(height_ / edge));
+        cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+        const double dx = width_ / columns_, dy = height_ / rows_, radius = 0.5 * std::hypot(dx, dy);
+        for (std::size_t e = 0; e < walls.elements().size(); ++e)
+            for (int row = 0; row < rows_; ++row)
+                for (int column = 0; column < columns_; ++column)
+                    if (near(walls.elements()[e], lower + Vec{(column + 0.5) * dx, (row + 0.5) * dy, 0}, radius + reach))
+                        cells_[static_cast<std::size_t>(row * columns_ + column)].push_back(
+                            static_cast<std::uint32_t>(e));
+    }
+
+    [[nodiscard]] const std::vector<std::uint32_t>& at(double x, double y) const {
+        const int column = std::clamp(static_cast<int>((x - lower_.x) / width_ * columns_), 0, columns_ - 1);
+        const int row = std::clamp(static_cast<int>((y - lower_.y) / height_ * rows_), 0, rows_ - 1);
+        return cells_[static_cast<std::size_t>(row * columns_ + column)];
+    }
+
+private:
+    // Whether the element's surface may come within `distance` of p (a superset: whole circles and lines' ends).
+    static bool near(const WallElement& e, Vec p, double distance) {
+        switch (e.kind) {
+        case WallElement::Kind::plane: return dot(p - e.a, e.b) < distance;
+        case WallElement::Kind::segment: {
+            const Vec along = e.b - e.a;
+            const double s = std::clamp(dot(p - e.a, along) / dot(along, along), 0.0, 1.0);
+            return norm(p - e.a - s * along) < distance;
+        }
+        case WallElement::Kind::vertex: return norm(p - e.a) < distance;
+        case WallElement::Kind::arc: return std::abs(norm(p - e.a) - e.radius) < distance;
+        case WallElement::Kind::disc: return norm(p - e.a) < distance + e.radius;
+        }
+        return true;
+    }
+
+    Vec lower_;
+    double width_, height_;
+    int columns_ = 1, rows_ = 1;
+    std::vector<std::vector<std::uint32_t>> cells_;
+};
+
+// Distance to the surface, without the rules that say whose contact it is: those may change while the list is valid.
+double surface_distance(const WallElement& e, Vec p) {
+    switch (e.kind) {
+    case WallElement::Kind::plane: return dot(p - e.a, e.b);
+    case WallElement::Kind::segment: {
+        const Vec along = e.b - e.a;
+        const double s = std::clamp(dot(p - e.a, along) / dot(along, along), 0.0, 1.0);
+        return norm(p - e.a - s * along);
+    }
+    case WallElement::Kind::vertex: return norm(p - e.a);
+    case WallElement::Kind::arc: return std::abs(norm(p - e.a) - e.radius);
+    case WallElement::Kind::disc: return norm(p - e.a) - e.radius;
+    }
+    return 0;
+}
+
+} // namespace
+
+void Walls::rebuild(const State& state) {
+    near_.clear();
+    tile_begin_.assign(1, 0);
+    const ElementGrid grid(*this, lower_, upper_, radius_max_ + skin_, state.size());
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        const double* r = state.record.data() + i * simd::record_fields;
+        for (const std::uint32_t e : grid.at(r[0], r[1]))
+            if (surface_distance(elements_[e], {r[0], r[1], 0}) < r[5] + skin_)
+                near_.push_back({static_cast<std::uint32_t>(i), e});
+        if ((i + 1) % tile_size == 0) tile_begin_.push_back(near_.size());
+    }
+    while (tile_begin_.size() <= state.tiles()) tile_begin_.push_back(near_.size());
+    budget_ = 0.8 * skin_; // the rest covers what the speed bound of a step misses
+}
+
+WallResult Walls::add_forces(State& state, const std::vector<double>& coefficients, int materials, int threads,
+                             bool list) {
+    std::vector<WallResult> results(state.tiles());
+    if (list && budget_ < 0) rebuild(state);
+    for_tiles(state.tiles(), threads, [&](std::size_t tile) {
+        if (list) {
+            const NearWall* all = near_.data();
+            results[tile] = kernel_(*this, state, coefficients.data(), materials, all + tile_begin_[tile],
+                                    all + tile_begin_[tile + 1]);
+            return;
+        }
+        for (std::size_t i = tile * tile_size; i < std::min(state.size(), (tile + 1) * tile_size); ++i)
+            for (std::size_t e = 0; e < elements_.size(); ++e) {
+                const NearWall pair{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(e)};
+                const WallResult one = kernel_(*this, state, coefficients.data(), materials, &pair, &pair + 1);
+                if (one.largest_ratio > results[tile].largest_ratio) results[tile] = one;
+            }
+    });
+    WallResult worst;
+    for (const WallResult& r : results)
+        if (r.largest_ratio > worst.largest_ratio) worst = r;
+    return worst;
+}
+
+} // namespace sandlane::md

@@ -1,0 +1,244 @@
+#include "md/walls.hpp"
+
+#include "core/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sandlane::md {
+
+namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi;
+
+Vec unit(Vec v) {
+    return (1.0 / norm(v)) * v;
+}
+
+double wrapped_angle(double angle) { // into [0, 2 pi)
+    const double turned = std::fmod(angle, two_pi);
+    return turned < 0 ? turned + two_pi : turned;
+}
+
+int material_index(const scene::Scene& scene, const std::string& name) {
+    for (std::size_t m = 0; m < scene.materials.size(); ++m)
+        if (scene.materials[m].name == name) return static_cast<int>(m);
+    return 0;
+}
+
+int motion_index(const scene::Scene& scene, const std::string& name) {
+    for (std::size_t m = 0; m < scene.motions.size(); ++m)
+        if (scene.motions[m].name == name) return static_cast<int>(m);
+    return -1;
+}
+
+WallContact towards(Vec position, Vec closest) {
+    WallContact c;
+    const Vec d = closest - position;
+    c.distance = norm(d);
+    c.valid = c.distance > 0;
+    if (c.valid) c.direction = (1.0 / c.distance) * d;
+    return c;
+}
+
+WallContact segment_contact(const WallElement& e, Vec p) {
+    const Vec along = e.b - e.a;
+    const double s = dot(p - e.a, along) / dot(along, along);
+    if (!(s >= 0 && s <= 1)) return {};
+    return towards(p, e.a + s * along);
+}
+
+WallContact vertex_contact(const WallElement& e, Vec p) {
+    for (int n = 0; n < e.neighbours; ++n)
+        if (dot(p - e.a, e.along[n]) >= 0) return {};
+    return towards(p, e.a);
+}
+
+WallContact arc_contact(const WallElement& e, Vec p) {
+    const Vec d = p - e.a;
+    const double r = norm(d);
+    if (r == 0) return {};
+    if (e.angle_span < two_pi && wrapped_angle(std::atan2(d.y, d.x) - e.angle_from) > e.angle_span) return {};
+    return towards(p, e.a + (e.radius / r) * d);
+}
+
+WallContact plane_contact(const WallElement& e, Vec p) {
+    WallContact c;
+    c.distance = dot(p - e.a, e.b);
+    c.direction = -1.0 * e.b;
+    c.valid = true;
+    return c;
+}
+
+WallContact disc_contact(const WallElement& e, Vec p) {
+    WallContact c = towards(p, e.a);
+    c.radius = e.radius;
+    c.inverse_radius = 1.0 / e.radius;
+    return c;
+}
+
+} // namespace
+
+// ---- construction ------------------------------------------------------------------------------------------------
+
+Walls::Walls(const scene::Scene& scene, const Plan& plan, const Needs& needs)
+    : motions_(scene.motions), rigid_(scene.motions.size()), kernel_(wall_kernel(plan.normal, plan.tangential)),
+      lower_(plan.lower), upper_(plan.upper), skin_(0.5 * needs.radius_min), radius_max_(needs.radius_max) {
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) add_wall(scene, w);
+    elements_ = reference_;
+    for (const WallElement& e : reference_) {
+        if (e.motion < 0) continue;
+        const scene::Motion& m = motions_[static_cast<std::size_t>(e.motion)];
+        const double reach = std::max(norm(e.a - m.centre), norm(e.b - m.centre)) + e.radius;
+        fastest_ = std::max(fastest_, motion::largest_speed(m, reach));
+    }
+}
+
+void Walls::add_wall(const scene::Scene& scene, std::size_t index) {
+    const scene::Wall& wall = scene.walls[index];
+    WallElement e;
+    e.wall = static_cast<int>(index);
+    e.material = material_index(scene, wall.material);
+    e.motion = motion_index(scene, wall.motion);
+    switch (wall.kind) {
+    case scene::WallKind::plane:
+        e.kind = WallElement::Kind::plane;
+        e.a = wall.points[0];
+        e.b = unit(wall.normal);
+        reference_.push_back(e);
+        break;
+    case scene::WallKind::segment:
+    case scene::WallKind::polyline: add_chain(wall.points, wall.closed, e); break;
+    case scene::WallKind::arc: {
+        e.kind = WallElement::Kind::arc;
+        e.a = wall.centre;
+        e.radius = wall.radius;
+        e.angle_from = wall.angle_from;
+        e.angle_span = std::min(wall.angle_to - wall.angle_from, two_pi);
+        reference_.push_back(e);
+        break;
+    }
+    case scene::WallKind::grains: add_row(wall, e); break;
+    }
+}
+
+void Walls::add_chain(const std::vector<Vec>& points, bool closed, WallElement prototype) {
+    const std::size_t n = points.size(), segments = closed ? n : n - 1;
+    for (std::size_t s = 0; s < segments; ++s) {
+        prototype.kind = WallElement::Kind::segment;
+        prototype.a = points[s];
+        prototype.b = points[(s + 1) % n];
+        reference_.push_back(prototype);
+    }
+    for (std::size_t v = 0; v < n; ++v) {
+        WallElement e = prototype;
+        e.kind = WallElement::Kind::vertex;
+        e.a = e.b = points[v];
+        if (closed || v > 0) e.along[e.neighbours++] = unit(points[(v + n - 1) % n] - points[v]);
+        if (closed || v + 1 < n) e.along[e.neighbours++] = unit(points[(v + 1) % n] - points[v]);
+        reference_.push_back(e);
+    }
+}
+
+// Wall grains: listed ones, on a ring, or in a row from the first point to the last.
+void Walls::add_row(const scene::Wall& wall, WallElement prototype) {
+    prototype.kind = WallElement::Kind::disc;
+    prototype.omega = wall.omega;
+    const auto put = [&](Vec centre, double radius) {
+        prototype.a = prototype.b = centre;
+        prototype.radius = radius;
+        reference_.push_back(prototype);
+    };
+    for (const scene::GrainItem& item : wall.items) put(item.position, item.radius);
+    if (!wall.items.empty()) return;
+    const double spacing = wall.spacing > 0 ? wall.spacing : 2 * wall.radius;
+    if (wall.ring_radius > 0) {
+        const double span = wall.angle_to - wall.angle_from;
+        const bool full = span >= two_pi * (1 - 1e-12);
+        const auto n = static_cast<int>(std::floor(span * wall.ring_radius / spacing + 1e-9)) + (full ? 0 : 1);
+        for (int k = 0; k < n; ++k) {
+            const double angle = wall.angle_from + span * k / std::max(1, full ? n : n - 1);
+            put(wall.centre + wall.ring_radius * Vec{std::cos(angle), std::sin(angle), 0}, wall.radius);
+        }
+        return;
+    }
+    const Vec from = wall.points.front(), along = wall.points.back() - from;
+    const auto n = static_cast<int>(std::floor(norm(along) / spacing + 1e-9));
+    for (int k = 0; k <= n; ++k) put(n == 0 ? from : from + (spacing * k / norm(along)) * along, wall.radius);
+}
+
+// ---- motion and geometry ------------------------------------------------------------------------------------------
+
+void Walls::move_to(double time) {
+    if (motions_.empty()) return;
+    for (std::size_t m = 0; m < motions_.size(); ++m) rigid_[m] = motion::rigid_state(motions_[m], time);
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+        const WallElement& from = reference_[e];
+        if (from.motion < 0) continue;
+        const motion::RigidState& rigid = rigid_[static_cast<std::size_t>(from.motion)];
+        WallElement& to = elements_[e];
+        to.a = rigid.position_of(from.a);
+        to.b = from.kind == WallElement::Kind::plane ? rigid.rotate(from.b) : rigid.position_of(from.b);
+        to.angle_from = from.angle_from + rigid.angle;
+        for (int n = 0; n < from.neighbours; ++n) to.along[n] = rigid.rotate(from.along[n]);
+    }
+}
+
+WallContact Walls::contact(std::size_t element, Vec p) const {
+    const WallElement& e = elements_[element];
+    WallContact c;
+    switch (e.kind) {
+    case WallElement::Kind::plane: c = plane_contact(e, p); break;
+    case WallElement::Kind::segment: c = segment_contact(e, p); break;
+    case WallElement::Kind::vertex: c = vertex_contact(e, p); break;
+    case WallElement::Kind::arc: c = arc_contact(e, p); break;
+    case WallElement::Kind::disc: c = disc_contact(e, p); break;
+    }
+    if (!c.valid) return c;
+    double omega = e.omega;
+    if (e.motion >= 0) {
+        const motion::RigidState& rigid = rigid_[static_cast<std::size_t>(e.motion)];
+        c.velocity = rigid.velocity_at(e.kind == WallElement::Kind::disc ? e.a : p + c.distance * c.direction);
+        omega += rigid.omega;
+    }
+    if (e.kind == WallElement::Kind::disc) c.spin = e.radius * omega;
+    return c;
+}
+
+std::vector<analysis::WallShape> Walls::shapes(double time) const {
+    Walls now = *this;
+    now.move_to(time);
+    std::vector<analysis::WallShape> result;
+    for (const WallElement& e : now.elements_) {
+        analysis::WallShape shape;
+        shape.wall = e.wall;
+        shape.material = e.material;
+        shape.a = e.a;
+        shape.b = e.b;
+        shape.centre = e.a;
+        shape.radius = e.radius;
+        shape.angle_from = e.angle_from;
+        shape.angle_to = e.angle_from + e.angle_span;
+        const motion::RigidState* rigid = e.motion < 0 ? nullptr : &now.rigid_[static_cast<std::size_t>(e.motion)];
+        shape.omega = e.omega + (rigid != nullptr ? rigid->omega : 0.0);
+        shape.angle = rigid != nullptr ? rigid->angle : 0.0;
+        if (rigid != nullptr) shape.velocity = rigid->velocity_at(e.a);
+        switch (e.kind) {
+        case WallElement::Kind::vertex: continue;
+        case WallElement::Kind::plane: {
+            const Vec along = norm(upper_ - lower_) * Vec{-e.b.y, e.b.x, 0};
+            shape.a = e.a - along;
+            shape.b = e.a + along;
+            break;
+        }
+        case WallElement::Kind::segment: break;
+        case WallElement::Kind::arc: shape.kind = analysis::WallShape::Kind::arc; break;
+        case WallElement::Kind::disc: shape.kind = analysis::WallShape::Kind::disc; break;
+        }
+        result.push_back(shape);
+    }
+    return result;
+}
+
+} // namespace sandlane::md

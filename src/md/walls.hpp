@@ -1,0 +1,101 @@
+// Walls: analytic elements and prescribed wall grains (md-spheres 1.10-1.13). Contacts use the same formula text as
+// pairs. A list of near (grain, element) pairs is kept while nothing can have closed the skin.
+#pragma once
+
+#include "analysis/snapshot.hpp"
+#include "laws/contact.hpp"
+#include "md/plan.hpp"
+#include "md/state.hpp"
+#include "motion/prescribed.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace sandlane::md {
+
+// One element in the coordinates of its reference time; a moving wall transforms it.
+struct WallElement {
+    enum class Kind { plane, segment, vertex, arc, disc };
+    Kind kind = Kind::segment;
+    Vec a, b;                 // plane: point, normal; segment: ends; vertex, disc: a; arc: a = centre
+    double radius = 0;        // arc, disc
+    double angle_from = 0, angle_span = 0; // arc, counter-clockwise
+    // Vertex: directions of the segments that end here, pointing away from the vertex; a contact in the interior of
+    // one of them belongs to that segment.
+    Vec along[2];
+    int neighbours = 0;
+    double omega = 0;         // disc: own spin in addition to the motion
+    int wall = 0, material = 0, motion = -1;
+};
+
+// Closest point of an element to a grain.
+struct WallContact {
+    double distance = 0;  // from the grain's centre to the surface (disc: to its centre)
+    Vec direction;        // unit vector from the grain to the element
+    Vec velocity;         // of the wall at the contact (disc: of its centre)
+    double radius = 0, spin = 0, inverse_radius = 0; // disc: R_j, R_j omega_j, 1/R_j
+    bool valid = false;
+};
+
+struct WallResult {
+    double largest_ratio = 0; // overlap over the grain's radius
+    std::int64_t grain = -1;  // where, storage index
+    int wall = -1;
+};
+
+// One near grain and element of the candidate list.
+struct NearWall {
+    std::uint32_t grain, element;
+};
+
+class Walls;
+// Adds the forces of a range of candidates; compiled per law (wall_forces.cpp).
+using WallKernel = WallResult (*)(const Walls&, State&, const double* coefficients, int materials, const NearWall* begin,
+                                  const NearWall* end);
+[[nodiscard]] WallKernel wall_kernel(int normal, int tangential);
+
+class Walls {
+public:
+    Walls() = default;
+    Walls(const scene::Scene& scene, const Plan& plan, const Needs& needs);
+
+    [[nodiscard]] bool empty() const { return elements_.empty(); }
+    [[nodiscard]] const std::vector<WallElement>& elements() const { return elements_; }
+    // Positions and velocities of the walls at time t.
+    void move_to(double time);
+    [[nodiscard]] WallContact contact(std::size_t element, Vec position) const;
+
+    // The grains moved by at most `distance` since the last call.
+    void account(double distance) { budget_ -= distance; }
+    void invalidate() { budget_ = -1; }
+    [[nodiscard]] double fastest() const { return fastest_; }
+    // Adds wall forces of all grains; `list` = false looks at every element of every grain (reference).
+    WallResult add_forces(State& state, const std::vector<double>& coefficients, int materials, int threads, bool list);
+    [[nodiscard]] std::size_t list_size() const { return near_.size(); }
+
+    [[nodiscard]] std::vector<analysis::WallShape> shapes(double time) const;
+    // Calls body(element) for the elements that may touch a grain of radius R at p.
+    template <class Body> void for_touching(Vec p, double radius, const Body& body) const {
+        for (std::size_t e = 0; e < elements_.size(); ++e) {
+            const WallContact c = contact(e, p);
+            if (c.valid && c.distance < radius + c.radius) body(e, c);
+        }
+    }
+
+private:
+    void rebuild(const State& state);
+    void add_wall(const scene::Scene& scene, std::size_t index);
+    void add_chain(const std::vector<Vec>& points, bool closed, WallElement prototype);
+    void add_row(const scene::Wall& wall, WallElement prototype);
+
+    std::vector<WallElement> elements_, reference_;
+    std::vector<scene::Motion> motions_;
+    std::vector<motion::RigidState> rigid_; // per motion, at the current time
+    std::vector<NearWall> near_;            // ordered by grain, then element
+    std::vector<std::size_t> tile_begin_;   // first list entry of each tile of grains
+    WallKernel kernel_ = nullptr;
+    Vec lower_, upper_;
+    double skin_ = 0, budget_ = -1, fastest_ = 0, radius_max_ = 0;
+};
+
+} // namespace sandlane::md
