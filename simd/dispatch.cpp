@@ -1,4 +1,5 @@
-// Picks the table of kernels once. xsimd's own detection never asks the operating system; the compiler's does.
+// Picks the table of kernels once. xsimd's own detection never asks the operating system; the compiler's
+// does.
 #include "simd/tables.hpp"
 
 #include "core/error.hpp"
@@ -21,24 +22,32 @@ const MdKernels& md_kernels_avx512();
 const MdKernels& md_kernels(Isa isa) {
     switch (isa) {
 #if defined(SANDLANE_ISA_sse4_2)
-    case Isa::sse4_2: return md_kernels_sse4_2();
+    case Isa::sse4_2:
+        return md_kernels_sse4_2();
 #endif
 #if defined(SANDLANE_ISA_avx2)
-    case Isa::avx2: return md_kernels_avx2();
+    case Isa::avx2:
+        return md_kernels_avx2();
 #endif
 #if defined(SANDLANE_ISA_avx512)
-    case Isa::avx512: return md_kernels_avx512();
+    case Isa::avx512:
+        return md_kernels_avx512();
 #endif
-    default: return md_kernels_scalar();
+    default:
+        return md_kernels_scalar();
     }
 }
 
 std::string_view isa_name(Isa isa) {
     switch (isa) {
-    case Isa::scalar: return "scalar";
-    case Isa::sse4_2: return "sse4.2";
-    case Isa::avx2: return "avx2";
-    case Isa::avx512: return "avx512";
+    case Isa::scalar:
+        return "scalar";
+    case Isa::sse4_2:
+        return "sse4.2";
+    case Isa::avx2:
+        return "avx2";
+    case Isa::avx512:
+        return "avx512";
     }
     return "scalar";
 }
@@ -57,9 +66,12 @@ bool isa_supported(Isa isa) {
     if (!isa_built(isa)) return false;
 #if defined(__x86_64__)
     switch (isa) {
-    case Isa::scalar: return true;
-    case Isa::sse4_2: return __builtin_cpu_supports("sse4.2") != 0;
-    case Isa::avx2: return __builtin_cpu_supports("avx2") != 0;
+    case Isa::scalar:
+        return true;
+    case Isa::sse4_2:
+        return __builtin_cpu_supports("sse4.2") != 0;
+    case Isa::avx2:
+        return __builtin_cpu_supports("avx2") != 0;
     case Isa::avx512:
         return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
                __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
@@ -87,11 +99,11 @@ Isa choose_isa(std::string_view name) {
     }
     const auto isa = isa_from_name(name);
     if (!isa)
-        fail(Exit::invalid_input, "{}={}: unknown instruction set; allowed: auto, scalar, sse4.2, avx2, avx512", source,
-             name);
+        fail(Exit::invalid_input,
+             "{}={}: unknown instruction set; allowed: auto, scalar, sse4.2, avx2, avx512", source, name);
     if (!isa_supported(*isa))
-        fail(Exit::unavailable, "{}={}: this machine or this build lacks it; best available: {}", source, name,
-             isa_name(available_isas().back()));
+        fail(Exit::unavailable, "{}={}: this machine or this build lacks it; best available: {}", source,
+             name, isa_name(available_isas().back()));
     return *isa;
 }
 

@@ -1,6 +1,7 @@
-// The one wrapper over xsimd: blocks of eight doubles on every instruction set (one AVX-512, two AVX2, four SSE
-// registers), so that the grouping of operations, and with it every bit, is the same everywhere. Operations that xsimd
-// 8.1 lacks (bit masks, compress, transposes) have a specialisation per instruction set and a portable fallback.
+// The one wrapper over xsimd: blocks of eight doubles on every instruction set (one AVX-512, two AVX2, four
+// SSE registers), so that the grouping of operations, and with it every bit, is the same everywhere.
+// Operations that xsimd 8.1 lacks (bit masks, compress, transposes) have a specialisation per instruction set
+// and a portable fallback.
 #pragma once
 
 #include <xsimd/xsimd.hpp>
@@ -26,15 +27,13 @@ template <class Arch> struct Block {
     }
 };
 
-template <class Arch> struct Mask {
-    xsimd::batch_bool<double, Arch> p[Block<Arch>::parts];
-};
+template <class Arch> struct Mask { xsimd::batch_bool<double, Arch> p[Block<Arch>::parts]; };
 
-#define SANDLANE_BINARY(op)                                                                                            \
-    template <class A> SANDLANE_INLINE Block<A> operator op(const Block<A>& a, const Block<A>& b) {                    \
-        Block<A> r;                                                                                                    \
-        for (int i = 0; i < Block<A>::parts; ++i) r.p[i] = a.p[i] op b.p[i];                                           \
-        return r;                                                                                                      \
+#define SANDLANE_BINARY(op)                                                                                  \
+    template <class A> SANDLANE_INLINE Block<A> operator op(const Block<A>& a, const Block<A>& b) {          \
+        Block<A> r;                                                                                          \
+        for (int i = 0; i < Block<A>::parts; ++i) r.p[i] = a.p[i] op b.p[i];                                 \
+        return r;                                                                                            \
     }
 SANDLANE_BINARY(+)
 SANDLANE_BINARY(-)
@@ -42,11 +41,11 @@ SANDLANE_BINARY(*)
 SANDLANE_BINARY(/)
 #undef SANDLANE_BINARY
 
-#define SANDLANE_COMPARE(op)                                                                                           \
-    template <class A> SANDLANE_INLINE Mask<A> operator op(const Block<A>& a, const Block<A>& b) {                     \
-        Mask<A> r;                                                                                                     \
-        for (int i = 0; i < Block<A>::parts; ++i) r.p[i] = a.p[i] op b.p[i];                                           \
-        return r;                                                                                                      \
+#define SANDLANE_COMPARE(op)                                                                                 \
+    template <class A> SANDLANE_INLINE Mask<A> operator op(const Block<A>& a, const Block<A>& b) {           \
+        Mask<A> r;                                                                                           \
+        for (int i = 0; i < Block<A>::parts; ++i) r.p[i] = a.p[i] op b.p[i];                                 \
+        return r;                                                                                            \
     }
 SANDLANE_COMPARE(<)
 SANDLANE_COMPARE(>)
@@ -83,7 +82,8 @@ template <class A> SANDLANE_INLINE Block<A> min(const Block<A>& a, const Block<A
     for (int i = 0; i < Block<A>::parts; ++i) r.p[i] = xsimd::min(a.p[i], b.p[i]);
     return r;
 }
-template <class A> SANDLANE_INLINE Block<A> select(const Mask<A>& m, const Block<A>& yes, const Block<A>& no) {
+template <class A>
+SANDLANE_INLINE Block<A> select(const Mask<A>& m, const Block<A>& yes, const Block<A>& no) {
     Block<A> r;
     for (int i = 0; i < Block<A>::parts; ++i) r.p[i] = xsimd::select(m.p[i], yes.p[i], no.p[i]);
     return r;
@@ -91,14 +91,16 @@ template <class A> SANDLANE_INLINE Block<A> select(const Mask<A>& m, const Block
 
 template <class A> SANDLANE_INLINE Block<A> load(const double* from) { // unaligned
     Block<A> r;
-    for (int i = 0; i < Block<A>::parts; ++i) r.p[i] = Block<A>::Batch::load_unaligned(from + i * Block<A>::lanes);
+    for (int i = 0; i < Block<A>::parts; ++i)
+        r.p[i] = Block<A>::Batch::load_unaligned(from + i * Block<A>::lanes);
     return r;
 }
 template <class A> SANDLANE_INLINE void store(double* to, const Block<A>& b) { // unaligned
     for (int i = 0; i < Block<A>::parts; ++i) b.p[i].store_unaligned(to + i * Block<A>::lanes);
 }
 
-// ---- bit masks: bit l of the result is lane l -------------------------------------------------------------------
+// ---- bit masks: bit l of the result is lane l
+// -------------------------------------------------------------------
 
 template <class Arch> SANDLANE_INLINE unsigned register_bits(const xsimd::batch_bool<double, Arch>& m) {
     bool lanes[Block<Arch>::lanes];
@@ -136,9 +138,10 @@ template <class A> SANDLANE_INLINE double largest(const Block<A>& b) {
     return r;
 }
 
-// ---- compress: packs the 32-bit integers whose bit is set to the front -------------------------------------------
-// Reads and writes eight integers whatever the mask says; the caller advances by the number of bits. On the cores
-// measured, compressing in a register and storing the whole is 6 cycles where a compressing store costs 61.
+// ---- compress: packs the 32-bit integers whose bit is set to the front
+// ------------------------------------------- Reads and writes eight integers whatever the mask says; the
+// caller advances by the number of bits. On the cores measured, compressing in a register and storing the
+// whole is 6 cycles where a compressing store costs 61.
 
 template <class Arch> struct Compress {
     static SANDLANE_INLINE void apply(const std::int32_t* from, unsigned mask, std::int32_t* to) {
@@ -148,8 +151,8 @@ template <class Arch> struct Compress {
 #if defined(__AVX512VL__)
 template <> struct Compress<xsimd::avx512bw> {
     static SANDLANE_INLINE void apply(const std::int32_t* from, unsigned mask, std::int32_t* to) {
-        const __m256i packed = _mm256_maskz_compress_epi32(static_cast<__mmask8>(mask),
-                                                           _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+        const __m256i packed = _mm256_maskz_compress_epi32(
+            static_cast<__mmask8>(mask), _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), packed);
     }
 };
@@ -176,9 +179,11 @@ template <> struct Compress<xsimd::avx2> {
 };
 #endif
 
-// ---- transposes ----------------------------------------------------------------------------------------------------
+// ---- transposes
+// ----------------------------------------------------------------------------------------------------
 
-// field[f] lane l = rows[l][f] for f < 4 of (j - i) and f >= 4 of (j + i): the combined records of eight pairs.
+// field[f] lane l = rows[l][f] for f < 4 of (j - i) and f >= 4 of (j + i): the combined records of eight
+// pairs.
 template <class Arch> struct CombinePairs {
     static SANDLANE_INLINE void apply(const double* records, const std::int32_t* i, const std::int32_t* j,
                                       Block<Arch> (&field)[8]) {
@@ -264,8 +269,8 @@ template <> struct CombinePairs<xsimd::avx512bw> {
 };
 template <> struct StoreRows<xsimd::avx512bw> {
     using Lanes = Block<xsimd::avx512bw>;
-    static SANDLANE_INLINE void apply(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& w, double* rows,
-                                      std::ptrdiff_t stride) {
+    static SANDLANE_INLINE void apply(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& w,
+                                      double* rows, std::ptrdiff_t stride) {
         const __m512d xy[2] = {_mm512_unpacklo_pd(x.p[0], y.p[0]), _mm512_unpackhi_pd(x.p[0], y.p[0])};
         const __m512d zw[2] = {_mm512_unpacklo_pd(z.p[0], w.p[0]), _mm512_unpackhi_pd(z.p[0], w.p[0])};
         const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11);
@@ -290,7 +295,8 @@ template <> struct LoadRows<xsimd::avx512bw> {
         const __m512d a = _mm512_permutex2var_pd(r0, xy, r1), b = _mm512_permutex2var_pd(r2, xy, r3);
         x.p[0] = _mm512_shuffle_f64x2(a, b, 0x44);
         y.p[0] = _mm512_shuffle_f64x2(a, b, 0xee);
-        z.p[0] = _mm512_shuffle_f64x2(_mm512_permutex2var_pd(r0, zw, r1), _mm512_permutex2var_pd(r2, zw, r3), 0x44);
+        z.p[0] = _mm512_shuffle_f64x2(_mm512_permutex2var_pd(r0, zw, r1), _mm512_permutex2var_pd(r2, zw, r3),
+                                      0x44);
     }
 };
 #elif defined(__AVX2__)
@@ -316,8 +322,8 @@ template <> struct CombinePairs<xsimd::avx2> {
 };
 template <> struct StoreRows<xsimd::avx2> {
     using Lanes = Block<xsimd::avx2>;
-    static SANDLANE_INLINE void apply(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& w, double* rows,
-                                      std::ptrdiff_t stride) {
+    static SANDLANE_INLINE void apply(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& w,
+                                      double* rows, std::ptrdiff_t stride) {
         for (int part = 0; part < 2; ++part) {
             __m256d a = x.p[part], b = y.p[part], c = z.p[part], d = w.p[part];
             transpose4(a, b, c, d);

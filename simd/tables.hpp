@@ -1,5 +1,6 @@
-// The single door between src/ and simd/: plain views of columns, and one table of kernel functions per instruction
-// set. The table named `scalar` is the reference: simple loops written separately in src/md/reference.cpp.
+// The single door between src/ and simd/: plain views of columns, and one table of kernel functions per
+// instruction set. The table named `scalar` is the reference: simple loops written separately in
+// src/md/reference.cpp.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +13,8 @@ namespace sandlane::simd {
 
 enum class Isa { scalar, sse4_2, avx2, avx512 };
 
-// Record of a particle for pair kernels: eight doubles, 64 bytes, at the predicted time. Everything a law needs of a
-// pair is a difference of fields 0-3 or a sum of fields 4-7.
+// Record of a particle for pair kernels: eight doubles, 64 bytes, at the predicted time. Everything a law
+// needs of a pair is a difference of fields 0-3 or a sum of fields 4-7.
 //   0 x  1 y  2 vx  3 vy  |  4 R omega  5 R  6 1/R  7 unused
 inline constexpr int record_fields = 8;
 // Force accumulator of a particle: Fx, Fy, sum of f_t (torque = R sum f_t), unused.
@@ -32,12 +33,13 @@ struct PairView {
 // Which partners of a pair get the force.
 enum class Target { both, first, second };
 
-// Evaluates `count` pairs (i, j) and adds their forces in list order; returns the largest overlap [m] (or `largest`).
-using PairKernel = double (*)(const PairView&, const std::int32_t* i, const std::int32_t* j, std::int32_t count,
-                              Target target, double largest);
+// Evaluates `count` pairs (i, j) and adds their forces in list order; returns the largest overlap [m] (or
+// `largest`).
+using PairKernel = double (*)(const PairView&, const std::int32_t* i, const std::int32_t* j,
+                              std::int32_t count, Target target, double largest);
 
-// L-vectors (md-vectorised-lattice 1.2): one entry per site, row-major with a halo of `reach` sites on every side.
-// Empty sites hold x = 1e15 (item 13). Sites of the domain start at `origin`.
+// L-vectors (md-vectorised-lattice 1.2): one entry per site, row-major with a halo of `reach` sites on every
+// side. Empty sites hold x = 1e15 (item 13). Sites of the domain start at `origin`.
 struct LatticeView {
     const double *x, *y, *radius;
     const std::int32_t* owner;
@@ -58,7 +60,8 @@ struct SweepResult {
 using LatticeKernel = SweepResult (*)(const LatticeView&, const PairView&, PairKernel, std::int32_t row_begin,
                                       std::int32_t row_end);
 
-// Link cells: particles counting-sorted by cell. One cell in a direction means "all particles" in that direction.
+// Link cells: particles counting-sorted by cell. One cell in a direction means "all particles" in that
+// direction.
 struct CellView {
     const double *x, *y, *radius;
     const std::int32_t* owner;
@@ -89,7 +92,8 @@ struct MotionResult {
     double largest_speed2 = 0; // (m/s)^2 of the predicted velocities
     std::int64_t outside = 0;  // particles outside the domain after wrapping, or NaN
 };
-// correct: forces -> state at t. predict: state at t -> state and records at t + dt. advance: both, in one pass.
+// correct: forces -> state at t. predict: state at t -> state and records at t + dt. advance: both, in one
+// pass.
 using MotionKernel = MotionResult (*)(const MotionView&, std::int64_t begin, std::int64_t end);
 
 // Site (or cell) of each particle, computed from its record; conflict free because a site holds one centre.
@@ -104,8 +108,8 @@ struct BinView {
 using BinKernel = void (*)(const BinView&, std::int64_t begin, std::int64_t end);
 
 struct MdKernels {
-    PairKernel pair[2][2][2];       // [normal law][tangential law][many materials]
-    LatticeKernel lattice_full[2];  // [many radii]
+    PairKernel pair[2][2][2];      // [normal law][tangential law][many materials]
+    LatticeKernel lattice_full[2]; // [many radii]
     LatticeKernel lattice_half[2];
     CellKernel cells;
     MotionKernel predict[3][2], correct[3][2], advance[3][2]; // [order - 4][spin]
@@ -114,7 +118,8 @@ struct MdKernels {
 
 [[nodiscard]] const MdKernels& md_kernels(Isa isa);
 
-// ---- dispatch -------------------------------------------------------------------------------------------------
+// ---- dispatch
+// -------------------------------------------------------------------------------------------------
 
 [[nodiscard]] std::string_view isa_name(Isa isa);
 [[nodiscard]] std::optional<Isa> isa_from_name(std::string_view name);
@@ -122,8 +127,8 @@ struct MdKernels {
 [[nodiscard]] bool isa_supported(Isa isa); // and this machine can run them
 [[nodiscard]] std::vector<Isa> available_isas();
 
-// name: "auto" or an instruction set. Throws Error(invalid_input) for an unknown name, Error(unavailable) for one that
-// this machine lacks. "auto" honours SANDLANE_ISA.
+// name: "auto" or an instruction set. Throws Error(invalid_input) for an unknown name, Error(unavailable) for
+// one that this machine lacks. "auto" honours SANDLANE_ISA.
 [[nodiscard]] Isa choose_isa(std::string_view name);
 
 } // namespace sandlane::simd

@@ -1,5 +1,5 @@
-// Link cells: lanes are eight candidates of one particle, contiguous in the cell-sorted columns; full list (each
-// contact is met from both sides), so tiles of cell rows write only their own particles.
+// Link cells: lanes are eight candidates of one particle, contiguous in the cell-sorted columns; full list
+// (each contact is met from both sides), so tiles of cell rows write only their own particles.
 #pragma once
 
 #include "simd/md/pairs.ipp"
@@ -8,8 +8,8 @@ namespace sandlane::simd {
 
 // One run of candidates [begin, end) of the particle at sorted position `self`.
 template <class Arch>
-SANDLANE_INLINE void sweep_run(const CellView& cells, const PairView& view, PairKernel kernel, std::int32_t self,
-                               std::int32_t begin, std::int32_t end, PairBuffer& pairs) {
+SANDLANE_INLINE void sweep_run(const CellView& cells, const PairView& view, PairKernel kernel,
+                               std::int32_t self, std::int32_t begin, std::int32_t end, PairBuffer& pairs) {
     using R = Block<Arch>;
     const R x(cells.x[self]), y(cells.y[self]), radius(cells.radius[self]);
     for (std::int32_t first = begin; first < end; first += width) {
@@ -58,8 +58,8 @@ SweepResult cells_full(const CellView& cells, const PairView& view, PairKernel k
                     for (std::int32_t other = rows.first[r]; other <= rows.last[r]; ++other)
                         for (int c = 0; c < runs.count; ++c) {
                             const std::int32_t* start = cells.start + std::ptrdiff_t{other} * cells.columns;
-                            sweep_run<Arch>(cells, view, kernel, self, start[runs.first[c]], start[runs.last[c] + 1],
-                                            pairs);
+                            sweep_run<Arch>(cells, view, kernel, self, start[runs.first[c]],
+                                            start[runs.last[c] + 1], pairs);
                         }
             result.occupied += cells.start[cell + 1] - cells.start[cell];
         }

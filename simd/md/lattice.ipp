@@ -1,6 +1,6 @@
-// The completely vectorised lattice algorithm (md-vectorised-lattice 1.2, 2.147-2.154): lanes are eight neighbouring
-// sites, partners are contiguous shifted loads. The distance stage is branch-free; contacts are compressed to pairs
-// and evaluated packed (item 24a).
+// The completely vectorised lattice algorithm (md-vectorised-lattice 1.2, 2.147-2.154): lanes are eight
+// neighbouring sites, partners are contiguous shifted loads. The distance stage is branch-free; contacts are
+// compressed to pairs and evaluated packed (item 24a).
 #pragma once
 
 #include "simd/md/pairs.ipp"
@@ -10,7 +10,8 @@ namespace sandlane::simd {
 // Finds the contacts of the sites of one row with the mask offsets [k_begin, k_end).
 template <class Arch, bool many_radii>
 SANDLANE_INLINE std::int64_t sweep_row(const LatticeView& lattice, const PairView& view, PairKernel kernel,
-                                       Target target, std::int32_t row, int k_begin, int k_end, PairBuffer& pairs) {
+                                       Target target, std::int32_t row, int k_begin, int k_end,
+                                       PairBuffer& pairs) {
     using R = Block<Arch>;
     const R margin(candidate_margin);
     const R occupied_below(0.5 * empty_site);
@@ -51,8 +52,8 @@ SANDLANE_INLINE std::int64_t sweep_row(const LatticeView& lattice, const PairVie
 
 // Full mask: every contact is met from both sides, each time for the first partner only (item 31).
 template <class Arch, bool many_radii>
-SweepResult lattice_full(const LatticeView& lattice, const PairView& view, PairKernel kernel, std::int32_t row_begin,
-                         std::int32_t row_end) {
+SweepResult lattice_full(const LatticeView& lattice, const PairView& view, PairKernel kernel,
+                         std::int32_t row_begin, std::int32_t row_end) {
     const int side = 2 * lattice.reach + 1;
     PairBuffer pairs;
     SweepResult result;
@@ -64,12 +65,12 @@ SweepResult lattice_full(const LatticeView& lattice, const PairView& view, PairK
     return result;
 }
 
-// Half mask inside a tile of rows, both partners at once; contacts with a row of another tile are evaluated once in
-// each tile for the partner that lies in it. No tile writes into another, and the order of additions depends on the
-// tile height only.
+// Half mask inside a tile of rows, both partners at once; contacts with a row of another tile are evaluated
+// once in each tile for the partner that lies in it. No tile writes into another, and the order of additions
+// depends on the tile height only.
 template <class Arch, bool many_radii>
-SweepResult lattice_half(const LatticeView& lattice, const PairView& view, PairKernel kernel, std::int32_t row_begin,
-                         std::int32_t row_end) {
+SweepResult lattice_half(const LatticeView& lattice, const PairView& view, PairKernel kernel,
+                         std::int32_t row_begin, std::int32_t row_end) {
     const int side = 2 * lattice.reach + 1;
     const int half_begin = (side * side - 1) / 2;
     // Offsets of row distance a end at half_end(a): `reach` of the own row, then whole rows of the mask.
@@ -83,7 +84,7 @@ SweepResult lattice_half(const LatticeView& lattice, const PairView& view, PairK
     for (std::int32_t row = row_begin; row < row_end; ++row) {
         const int within = row_end - 1 - row < lattice.reach ? row_end - 1 - row : lattice.reach;
         result.occupied += sweep_row<Arch, many_radii>(lattice, view, kernel, Target::both, row, half_begin,
-                                                      half_end(within), pairs);
+                                                       half_end(within), pairs);
     }
     pairs.evaluate_rest(view, kernel, Target::both);
     const std::int32_t last = row_end - lattice.reach > row_begin ? row_end - lattice.reach : row_begin;

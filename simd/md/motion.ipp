@@ -1,5 +1,5 @@
-// Gear predictor-corrector, eight particles at a time: correct with the forces of this step, predict the next,
-// wrap, and write the records that the pair kernels read, in one pass over the state (item 35).
+// Gear predictor-corrector, eight particles at a time: correct with the forces of this step, predict the
+// next, wrap, and write the records that the pair kernels read, in one pass over the state (item 35).
 #pragma once
 
 #include "motion/gear.hpp"
@@ -8,23 +8,27 @@
 
 namespace sandlane::simd {
 
-template <class Arch, int order> SANDLANE_INLINE void load_dof(const double* gear, int dof, Block<Arch> (&x)[order]) {
+template <class Arch, int order>
+SANDLANE_INLINE void load_dof(const double* gear, int dof, Block<Arch> (&x)[order]) {
     for (int k = 0; k < order; ++k) x[k] = load<Arch>(gear + (dof * order + k) * width);
 }
-template <class Arch, int order> SANDLANE_INLINE void store_dof(double* gear, int dof, const Block<Arch> (&x)[order]) {
+template <class Arch, int order>
+SANDLANE_INLINE void store_dof(double* gear, int dof, const Block<Arch> (&x)[order]) {
     for (int k = 0; k < order; ++k) store(gear + (dof * order + k) * width, x[k]);
 }
 
-// Wraps one coordinate into [lower, upper) and counts the image. Rounding of the sum may give exactly upper: that is
-// lower (item 26).
+// Wraps one coordinate into [lower, upper) and counts the image. Rounding of the sum may give exactly upper:
+// that is lower (item 26).
 template <class Arch>
-SANDLANE_INLINE Block<Arch> wrap(const Block<Arch>& x, double lower, double upper, double period, std::int32_t* image) {
+SANDLANE_INLINE Block<Arch> wrap(const Block<Arch>& x, double lower, double upper, double period,
+                                 std::int32_t* image) {
     using R = Block<Arch>;
     const auto below = x < R(lower);
     const auto above = x >= R(upper);
     const unsigned low = bits(below), high = bits(above);
     if ((low | high) == 0) return x;
-    for (int l = 0; l < width; ++l) image[l] += static_cast<int>(high >> l & 1u) - static_cast<int>(low >> l & 1u);
+    for (int l = 0; l < width; ++l)
+        image[l] += static_cast<int>(high >> l & 1u) - static_cast<int>(low >> l & 1u);
     const R moved = select(below, x + R(period), select(above, x - R(period), x));
     return select(moved >= R(upper), select(below, R(lower), moved), moved);
 }
@@ -51,14 +55,17 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
             motion::gear_correct(x, fx * inverse_mass + R(view.gravity_x), half_dt2);
             motion::gear_correct(y, fy * inverse_mass + R(view.gravity_y), half_dt2);
             if constexpr (spin)
-                motion::gear_correct(phi, ft * load<Arch>(view.spin_factor + first) + R(view.gravity_phi), half_dt2);
+                motion::gear_correct(phi, ft * load<Arch>(view.spin_factor + first) + R(view.gravity_phi),
+                                     half_dt2);
         }
         if constexpr (do_predict) {
             motion::gear_predict(x);
             motion::gear_predict(y);
             if constexpr (spin) motion::gear_predict(phi);
-            if (view.period_x > 0) x[0] = wrap(x[0], view.lower_x, view.upper_x, view.period_x, view.image_x + first);
-            if (view.period_y > 0) y[0] = wrap(y[0], view.lower_y, view.upper_y, view.period_y, view.image_y + first);
+            if (view.period_x > 0)
+                x[0] = wrap(x[0], view.lower_x, view.upper_x, view.period_x, view.image_x + first);
+            if (view.period_y > 0)
+                y[0] = wrap(y[0], view.lower_y, view.upper_y, view.period_y, view.image_y + first);
             const unsigned real = end - first >= width ? 0xffu : (1u << (end - first)) - 1u;
             const unsigned inside = bits((x[0] >= R(view.lower_x)) & (x[0] < R(view.upper_x)) &
                                          (y[0] >= R(view.lower_y)) & (y[0] < R(view.upper_y)));
@@ -77,8 +84,9 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
             StoreRows<Arch>::apply(x[0], y[0], vx, vy, record, record_fields);
             if constexpr (spin) {
                 const R radius = load<Arch>(view.radius + first);
-                StoreRows<Arch>::apply(radius * (phi[1] * inverse_dt), radius, load<Arch>(view.inverse_radius + first),
-                                       R(0.0), record + 4, record_fields);
+                StoreRows<Arch>::apply(radius * (phi[1] * inverse_dt), radius,
+                                       load<Arch>(view.inverse_radius + first), R(0.0), record + 4,
+                                       record_fields);
             }
         }
         store_dof<Arch, order>(gear, 0, x);
@@ -97,15 +105,17 @@ template <class Arch> void bin_sites(const BinView& view, std::int64_t begin, st
             xs[l] = view.records[(first + l) * record_fields];
             ys[l] = view.records[(first + l) * record_fields + 1];
         }
-        const R column = min(floor((load<Arch>(xs) - R(view.lower_x)) * R(view.inverse_dx)), R(view.columns - 1));
+        const R column =
+            min(floor((load<Arch>(xs) - R(view.lower_x)) * R(view.inverse_dx)), R(view.columns - 1));
         const R row = min(floor((load<Arch>(ys) - R(view.lower_y)) * R(view.inverse_dy)), R(view.rows - 1));
         store(xs, column);
         store(ys, row);
         const int size = end - first < width ? static_cast<int>(end - first) : width;
         for (int l = 0; l < size; ++l)
-            view.site[first + l] = static_cast<std::int32_t>(view.origin) +
-                                   static_cast<std::int32_t>(ys[l]) * static_cast<std::int32_t>(view.row_stride) +
-                                   static_cast<std::int32_t>(xs[l]);
+            view.site[first + l] =
+                static_cast<std::int32_t>(view.origin) +
+                static_cast<std::int32_t>(ys[l]) * static_cast<std::int32_t>(view.row_stride) +
+                static_cast<std::int32_t>(xs[l]);
     }
 }
 

@@ -1,5 +1,6 @@
-// Pair forces of a list of pairs, eight at a time: combine the records of both grains, evaluate the law on packed
-// lanes, then add the forces in list order (the order, and with it every bit, does not depend on the lanes).
+// Pair forces of a list of pairs, eight at a time: combine the records of both grains, evaluate the law on
+// packed lanes, then add the forces in list order (the order, and with it every bit, does not depend on the
+// lanes).
 #pragma once
 
 #include "laws/contact.hpp"
@@ -8,19 +9,22 @@
 
 namespace sandlane::simd {
 
-inline constexpr int pair_chunk = 256; // pairs evaluated before their forces are added: 8 KiB of forces stay in L1
+inline constexpr int pair_chunk =
+    256; // pairs evaluated before their forces are added: 8 KiB of forces stay in L1
 
-template <class Arch> SANDLANE_INLINE Block<Arch> minimum_image(const Block<Arch>& d, double half, double period) {
+template <class Arch>
+SANDLANE_INLINE Block<Arch> minimum_image(const Block<Arch>& d, double half, double period) {
     const Block<Arch> low = select(d < Block<Arch>(-half), d + Block<Arch>(period), d);
     return select(low > Block<Arch>(half), low - Block<Arch>(period), low);
 }
 
 template <class Arch>
-SANDLANE_INLINE laws::PairCoefficients<Block<Arch>> gather_coefficients(const PairView& view, const std::int32_t* i,
-                                                                      const std::int32_t* j) {
+SANDLANE_INLINE laws::PairCoefficients<Block<Arch>>
+gather_coefficients(const PairView& view, const std::int32_t* i, const std::int32_t* j) {
     double lanes[laws::pair_coefficients][width];
     for (int l = 0; l < width; ++l) {
-        const std::ptrdiff_t pair = std::ptrdiff_t{view.material[i[l]]} * view.materials + view.material[j[l]];
+        const std::ptrdiff_t pair =
+            std::ptrdiff_t{view.material[i[l]]} * view.materials + view.material[j[l]];
         const double* entry = view.coefficients + pair * laws::pair_coefficients;
         for (int c = 0; c < laws::pair_coefficients; ++c) lanes[c][l] = entry[c];
     }
@@ -60,17 +64,23 @@ double pair_forces(const PairView& view, const std::int32_t* i, const std::int32
     alignas(64) double rows[pair_chunk * force_fields];
     laws::PairCoefficients<R> coefficients;
     if constexpr (!many_materials)
-        coefficients = {R(view.coefficients[0]), R(view.coefficients[1]), R(view.coefficients[2]), R(view.coefficients[3])};
+        coefficients = {R(view.coefficients[0]), R(view.coefficients[1]), R(view.coefficients[2]),
+                        R(view.coefficients[3])};
     R most(largest_overlap);
     for (std::int32_t first = 0; first < count; first += pair_chunk) {
         const int size = count - first < pair_chunk ? count - first : pair_chunk;
         for (int n = 0; n < size; n += width) {
             R field[record_fields];
             CombinePairs<Arch>::apply(view.records, i + first + n, j + first + n, field);
-            if constexpr (many_materials) coefficients = gather_coefficients<Arch>(view, i + first + n, j + first + n);
+            if constexpr (many_materials)
+                coefficients = gather_coefficients<Arch>(view, i + first + n, j + first + n);
             const laws::PairState<R> state{minimum_image(field[0], view.half_x, view.period_x),
                                            minimum_image(field[1], view.half_y, view.period_y),
-                                           field[2], field[3], field[4], field[5], field[6]};
+                                           field[2],
+                                           field[3],
+                                           field[4],
+                                           field[5],
+                                           field[6]};
             const auto f = laws::pair_force<Normal, Tangential>(state, coefficients);
             most = max(f.overlap, most);
             StoreRows<Arch>::apply(f.x, f.y, f.tangential, R(0.0), rows + n * force_fields, force_fields);
@@ -80,7 +90,8 @@ double pair_forces(const PairView& view, const std::int32_t* i, const std::int32
     return largest(most);
 }
 
-// Pairs found by a traversal, handed to the pair kernel in whole blocks; the remainder is kept for the next round.
+// Pairs found by a traversal, handed to the pair kernel in whole blocks; the remainder is kept for the next
+// round.
 struct PairBuffer {
     static constexpr int capacity = pair_chunk + 8 * width;
     std::int32_t i[capacity], j[capacity];

@@ -1,4 +1,5 @@
-// A snapshot: the state of a run at one time in the order of ids, for outputs and analyses. Const to its readers.
+// A snapshot: the state of a run at one time in the order of ids, for outputs and analyses. Const to its
+// readers.
 #pragma once
 
 #include "core/vec.hpp"
@@ -13,15 +14,15 @@ namespace sandlane::analysis {
 struct WallShape {
     enum class Kind { segment, arc, disc };
     Kind kind = Kind::segment;
-    Vec a, b;           // segment: end points
-    Vec centre;         // arc, disc
-    double radius = 0;  // arc, disc
+    Vec a, b;                            // segment: end points
+    Vec centre;                          // arc, disc
+    double radius = 0;                   // arc, disc
     double angle_from = 0, angle_to = 0; // arc, counter-clockwise
-    double angle = 0;   // disc: orientation
-    Vec velocity;       // disc
-    double omega = 0;   // disc
+    double angle = 0;                    // disc: orientation
+    Vec velocity;                        // disc
+    double omega = 0;                    // disc
     int material = 0;
-    int wall = 0;       // index of the wall in the scene
+    int wall = 0; // index of the wall in the scene
 };
 
 struct Snapshot {
@@ -30,8 +31,8 @@ struct Snapshot {
     Vec lower, upper;
     bool periodic_x = false, periodic_y = false;
 
-    // Free grains, one entry each, ordered by id. SI units; angle in rad; pressure in Pa (N/m for body = disc):
-    // trace of the contact stress over two (md-spheres 8.1), compression positive.
+    // Free grains, one entry each, ordered by id. SI units; angle in rad; pressure in Pa (N/m for body =
+    // disc): trace of the contact stress over two (md-spheres 8.1), compression positive.
     std::vector<std::int64_t> id;
     std::vector<double> x, y, angle, vx, vy, omega, radius, mass, pressure;
     std::vector<int> material;

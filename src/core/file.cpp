@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail_io(const char* action, const fs::path& path, int cause) {
-    fail(Exit::io, "{}: cannot {}: {}. Choose another folder with --out, or free space and repeat.", path.string(),
-         action, std::strerror(cause));
+    fail(Exit::io, "{}: cannot {}: {}. Choose another folder with --out, or free space and repeat.",
+         path.string(), action, std::strerror(cause));
 }
 
 } // namespace
@@ -28,12 +28,14 @@ namespace {
 std::string read_file(const fs::path& path) {
     std::error_code status;
     if (!fs::exists(path, status)) fail(Exit::invalid_input, "{}: no such file", path.string());
-    if (fs::is_directory(path, status)) fail(Exit::invalid_input, "{}: is a folder, not a file", path.string());
+    if (fs::is_directory(path, status))
+        fail(Exit::invalid_input, "{}: is a folder, not a file", path.string());
     std::ifstream stream(path, std::ios::binary);
     if (!stream) fail(Exit::invalid_input, "{}: cannot be read: {}", path.string(), std::strerror(errno));
     std::ostringstream content;
     content << stream.rdbuf();
-    if (stream.bad()) fail(Exit::invalid_input, "{}: reading failed: {}", path.string(), std::strerror(errno));
+    if (stream.bad())
+        fail(Exit::invalid_input, "{}: reading failed: {}", path.string(), std::strerror(errno));
     return std::move(content).str();
 }
 
@@ -46,7 +48,8 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
     };
     std::FILE* handle = std::fopen(temporary.c_str(), "wb");
     if (handle == nullptr) give_up("create the file", errno);
-    bool written = content.empty() || std::fwrite(content.data(), 1, content.size(), handle) == content.size();
+    bool written =
+        content.empty() || std::fwrite(content.data(), 1, content.size(), handle) == content.size();
     written = std::fflush(handle) == 0 && written;
     written = ::fsync(::fileno(handle)) == 0 && written;
     const int cause = errno;
@@ -60,7 +63,8 @@ OutputFile::OutputFile(fs::path path, std::int64_t append_at) : path_(std::move(
         std::error_code status;
         const auto size = fs::file_size(path_, status);
         if (status || static_cast<std::int64_t>(size) < append_at)
-            fail(Exit::io, "{}: is shorter than the checkpoint says ({} bytes wanted); it cannot be continued",
+            fail(Exit::io,
+                 "{}: is shorter than the checkpoint says ({} bytes wanted); it cannot be continued",
                  path_.string(), append_at);
         if (::truncate(path_.c_str(), append_at) != 0) fail_io("truncate", path_, errno);
         position_ = append_at;
@@ -70,7 +74,8 @@ OutputFile::OutputFile(fs::path path, std::int64_t append_at) : path_(std::move(
 }
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
-    : path_(std::move(other.path_)), handle_(std::exchange(other.handle_, nullptr)), position_(other.position_) {}
+    : path_(std::move(other.path_)), handle_(std::exchange(other.handle_, nullptr)),
+      position_(other.position_) {}
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
     std::swap(path_, other.path_);

@@ -12,15 +12,16 @@ namespace sandlane {
 // Throws Error(invalid_input) naming the path if it is missing, a folder or unreadable.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
-// Writes to a temporary file beside `path`, flushes it to the disk and renames it: a reader sees the old or the
-// new content, never half of it. Throws Error(io); the temporary file is removed.
+// Writes to a temporary file beside `path`, flushes it to the disk and renames it: a reader sees the old or
+// the new content, never half of it. Throws Error(io); the temporary file is removed.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
 // A file that grows during a run (log, trajectory). Every error is an Error(io) naming the path.
 class OutputFile {
 public:
     OutputFile() = default;
-    // append_at < 0: create or truncate. Otherwise keep the first append_at bytes (resume) and go on after them.
+    // append_at < 0: create or truncate. Otherwise keep the first append_at bytes (resume) and go on after
+    // them.
     explicit OutputFile(std::filesystem::path path, std::int64_t append_at = -1);
     OutputFile(OutputFile&& other) noexcept;
     OutputFile& operator=(OutputFile&& other) noexcept;

@@ -14,8 +14,9 @@ struct ThreadChoice {
     std::string reason; // e.g. "--threads", "OMP_NUM_THREADS", "affinity and cgroup quota"
 };
 
-// requested <= 0 means "not given". Precedence: requested, SANDLANE_THREADS, OMP_NUM_THREADS, affinity and cgroup
-// quota. Throws Error(unavailable) for more threads than the CPUs allowed, Error(invalid_input) for nonsense.
+// requested <= 0 means "not given". Precedence: requested, SANDLANE_THREADS, OMP_NUM_THREADS, affinity and
+// cgroup quota. Throws Error(unavailable) for more threads than the CPUs allowed, Error(invalid_input) for
+// nonsense.
 [[nodiscard]] ThreadChoice choose_threads(int requested);
 [[nodiscard]] int allowed_cpus();
 
@@ -40,6 +41,8 @@ template <class Body> void for_tiles_dynamic(std::size_t tiles, int threads, con
     for (std::size_t tile = 0; tile < tiles; ++tile) body(tile);
 }
 
-[[nodiscard]] inline int thread_index() { return omp_get_thread_num(); }
+[[nodiscard]] inline int thread_index() {
+    return omp_get_thread_num();
+}
 
 } // namespace sandlane

@@ -1,5 +1,6 @@
-// The operations that formula headers use, for R = double. A block of lanes brings its own overloads (simd/lanes.hpp).
-// min and max follow the x86 instructions (second operand on a tie or NaN), so that both types give the same bits.
+// The operations that formula headers use, for R = double. A block of lanes brings its own overloads
+// (simd/lanes.hpp). min and max follow the x86 instructions (second operand on a tie or NaN), so that both
+// types give the same bits.
 #pragma once
 
 #include <cmath>
@@ -8,8 +9,14 @@ namespace sandlane {
 
 using std::sqrt;
 
-[[nodiscard]] constexpr double max(double a, double b) { return a > b ? a : b; }
-[[nodiscard]] constexpr double min(double a, double b) { return a < b ? a : b; }
-[[nodiscard]] constexpr double select(bool condition, double yes, double no) { return condition ? yes : no; }
+[[nodiscard]] constexpr double max(double a, double b) {
+    return a > b ? a : b;
+}
+[[nodiscard]] constexpr double min(double a, double b) {
+    return a < b ? a : b;
+}
+[[nodiscard]] constexpr double select(bool condition, double yes, double no) {
+    return condition ? yes : no;
+}
 
 } // namespace sandlane

@@ -41,8 +41,9 @@ public:
 
     // Two uniform doubles in [0, 1) with 53 random bits, number `index` of the stream.
     [[nodiscard]] std::array<double, 2> uniform2(std::uint64_t index) const {
-        const PhiloxCounter r =
-            philox({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), stream_, group_}, key_);
+        const PhiloxCounter r = philox(
+            {static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), stream_, group_},
+            key_);
         return {to_unit(r[0], r[1]), to_unit(r[2], r[3])};
     }
     [[nodiscard]] double uniform(std::uint64_t index) const { return uniform2(index)[0]; }

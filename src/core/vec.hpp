@@ -14,7 +14,11 @@ struct Vec {
     friend constexpr bool operator==(const Vec&, const Vec&) = default;
 };
 
-[[nodiscard]] constexpr double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-[[nodiscard]] inline double norm(Vec a) { return std::sqrt(dot(a, a)); }
+[[nodiscard]] constexpr double dot(Vec a, Vec b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+[[nodiscard]] inline double norm(Vec a) {
+    return std::sqrt(dot(a, a));
+}
 
 } // namespace sandlane

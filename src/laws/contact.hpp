@@ -9,7 +9,7 @@ namespace sandlane::laws {
 
 // Coefficients of one pair of materials: what the normal law and the tangential law read (laws.def).
 template <class R> struct PairCoefficients {
-    R elastic, dissipative;        // normal law
+    R elastic, dissipative;         // normal law
     R tangential_damping, friction; // gamma_t [kg/s], mu
 };
 inline constexpr int pair_coefficients = 4; // doubles of one entry of a material pair table
@@ -37,7 +37,8 @@ inline PairForce<R> pair_force(const PairState<R>& s, const PairCoefficients<R>&
     const R rate = -(s.dvx * nx + s.dvy * ny);
     const auto touching = overlap > R(0.0);
     const R safe_overlap = select(touching, overlap, R(0.0));
-    const R f_n = Normal::force(NormalInput<R>{safe_overlap, rate, c.elastic, c.dissipative, s.inverse_reduced_radius});
+    const R f_n =
+        Normal::force(NormalInput<R>{safe_overlap, rate, c.elastic, c.dissipative, s.inverse_reduced_radius});
     const R v_t = Tangential::needs_spin ? s.dvx * ny - s.dvy * nx + s.spin : R(0.0);
     const R f_t = Tangential::force(f_n, v_t, c.tangential_damping, c.friction);
     const R zero(0.0);

@@ -1,5 +1,6 @@
 // Tangential contact forces without memory (md-spheres section 3). Formulas only, templates on R.
-// f_n >= 0 normal force [N], v_t relative surface velocity along t (1.6) [m/s]; returns f_t on grain i along t [N].
+// f_n >= 0 normal force [N], v_t relative surface velocity along t (1.6) [m/s]; returns f_t on grain i along
+// t [N].
 #pragma once
 
 #include "core/real.hpp"

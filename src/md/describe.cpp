@@ -11,17 +11,23 @@ namespace {
 
 const char* method_name(scene::NeighbourMethod method) {
     switch (method) {
-    case scene::NeighbourMethod::automatic: return "auto";
-    case scene::NeighbourMethod::brute_force: return "brute force";
-    case scene::NeighbourMethod::link_cells: return "link cells";
-    case scene::NeighbourMethod::lattice: return "lattice, full mask";
-    case scene::NeighbourMethod::lattice_half: return "lattice, half mask";
+    case scene::NeighbourMethod::automatic:
+        return "auto";
+    case scene::NeighbourMethod::brute_force:
+        return "brute force";
+    case scene::NeighbourMethod::link_cells:
+        return "link cells";
+    case scene::NeighbourMethod::lattice:
+        return "lattice, full mask";
+    case scene::NeighbourMethod::lattice_half:
+        return "lattice, half mask";
     }
     return "";
 }
 
 double bytes_per_grain(const Plan& plan) {
-    const double state = 8.0 * (plan.order * (plan.spin ? 3 : 2) + simd::record_fields + simd::force_fields + 4) + 20;
+    const double state =
+        8.0 * (plan.order * (plan.spin ? 3 : 2) + simd::record_fields + simd::force_fields + 4) + 20;
     const bool lattice = plan.neighbours == scene::NeighbourMethod::lattice ||
                          plan.neighbours == scene::NeighbourMethod::lattice_half;
     return state + (lattice ? 8 : 32);
@@ -46,14 +52,17 @@ std::string describe(const scene::Scene& scene, const Needs& needs, const Derive
     line("time step", fmt::format("{:.4g} s = t_c/{:.3g}; critical {:.4g} s, recommended {:.4g} s", plan.dt,
                                   d.collision_time / plan.dt, d.critical_dt, d.recommended_dt));
     line("steps", fmt::format("{} ({:.4g} s)", plan.steps, static_cast<double>(plan.steps) * plan.dt));
-    line("restitution coefficient",
-         fmt::format("{:.4f} .. {:.4f} at {:.3g} m/s", d.restitution_min, d.restitution_max, scene.md.max_speed));
-    line("largest overlap", fmt::format("about {:.3g} R_min at {:.3g} m/s", d.overlap_ratio, scene.md.max_speed));
-    line("memory", fmt::format("about {:.3g} MB", (static_cast<double>(n) * bytes_per_grain(plan) + sites * 28) / 1e6));
+    line("restitution coefficient", fmt::format("{:.4f} .. {:.4f} at {:.3g} m/s", d.restitution_min,
+                                                d.restitution_max, scene.md.max_speed));
+    line("largest overlap",
+         fmt::format("about {:.3g} R_min at {:.3g} m/s", d.overlap_ratio, scene.md.max_speed));
+    line("memory",
+         fmt::format("about {:.3g} MB", (static_cast<double>(n) * bytes_per_grain(plan) + sites * 28) / 1e6));
     text += "\nPlan\n";
     line("engine", "md, two dimensions");
     line("neighbours", method_name(plan.neighbours));
-    if (plan.neighbours == scene::NeighbourMethod::lattice || plan.neighbours == scene::NeighbourMethod::lattice_half)
+    if (plan.neighbours == scene::NeighbourMethod::lattice ||
+        plan.neighbours == scene::NeighbourMethod::lattice_half)
         line("lattice", fmt::format("{} x {} sites of {:.4g} x {:.4g} m, mask {}x{}", plan.columns, plan.rows,
                                     plan.site_x, plan.site_y, 2 * plan.reach + 1, 2 * plan.reach + 1));
     line("integrator", fmt::format("Gear predictor-corrector, {} values", plan.order));
@@ -63,7 +72,8 @@ std::string describe(const scene::Scene& scene, const Needs& needs, const Derive
     if (plan.dt > d.collision_time / 20)
         text += "\nWarning: the time step is above t_c/20; dense packings may become unstable.\n";
     if (d.overlap_ratio > 0.05)
-        text += "\nWarning: overlaps above 5 % of the smallest radius are expected; stiffen the material or lower md.max_speed.\n";
+        text += "\nWarning: overlaps above 5 % of the smallest radius are expected; stiffen the material or "
+                "lower md.max_speed.\n";
     return text;
 }
 

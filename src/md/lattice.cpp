@@ -6,20 +6,21 @@ namespace sandlane::md {
 
 namespace {
 
-constexpr std::int32_t row_margin = 8; // halo columns left of the domain, at least the reach; keeps rows aligned
+constexpr std::int32_t row_margin =
+    8; // halo columns left of the domain, at least the reach; keeps rows aligned
 
 } // namespace
 
 Lattice::Lattice(const scene::Scene& scene, const Plan& plan, double radius_max)
-    : columns_(plan.columns), rows_(plan.rows), reach_(plan.reach), lower_x_(plan.lower.x), lower_y_(plan.lower.y),
-      site_x_(plan.site_x), site_y_(plan.site_y),
+    : columns_(plan.columns), rows_(plan.rows), reach_(plan.reach), lower_x_(plan.lower.x),
+      lower_y_(plan.lower.y), site_x_(plan.site_x), site_y_(plan.site_y),
       period_x_(scene.domain.periodic[0] ? plan.upper.x - plan.lower.x : 0.0),
       period_y_(scene.domain.periodic[1] ? plan.upper.y - plan.lower.y : 0.0),
       uniform_square_(4 * radius_max * radius_max), many_radii_(plan.many_radii) {
     row_stride_ = static_cast<std::ptrdiff_t>(padded(static_cast<std::size_t>(columns_))) + 2 * row_margin;
     origin_ = reach_ * row_stride_ + row_margin;
-    // A function of the scene alone. Higher tiles repeat fewer rows of the half mask at their edges, lower ones
-    // balance better.
+    // A function of the scene alone. Higher tiles repeat fewer rows of the half mask at their edges, lower
+    // ones balance better.
     tile_rows_ = std::clamp(rows_ / 16, 8, 32);
     const auto sites = static_cast<std::size_t>((rows_ + 2 * reach_) * row_stride_) + 2 * block_width;
     x_.resize(sites, simd::empty_site);
@@ -36,8 +37,8 @@ std::size_t Lattice::bytes() const {
 }
 
 simd::LatticeView Lattice::view() const {
-    return {x_.data(), y_.data(), radius_.data(),  owner_.data(),   row_stride_, origin_,
-            columns_,  rows_,     reach_,          offsets_.data(), uniform_square_, tile_rows_};
+    return {x_.data(), y_.data(), radius_.data(), owner_.data(),   row_stride_,     origin_,
+            columns_,  rows_,     reach_,         offsets_.data(), uniform_square_, tile_rows_};
 }
 
 void Lattice::clear(const State& state) {
@@ -58,7 +59,8 @@ template <class Body> void Lattice::for_images(std::int32_t site, const Body& bo
     if (period_y_ > 0 && row < reach_) shift_row = 1;
     if (period_y_ > 0 && row >= rows_ - reach_) shift_row = -1;
     const auto image = [&](int a, int b) {
-        body(static_cast<std::size_t>(site + a * row_stride_ * rows_ + b * columns_), b * period_x_, a * period_y_);
+        body(static_cast<std::size_t>(site + a * row_stride_ * rows_ + b * columns_), b * period_x_,
+             a * period_y_);
     };
     if (shift_column != 0) image(0, shift_column);
     if (shift_row != 0) image(shift_row, 0);
@@ -66,16 +68,25 @@ template <class Body> void Lattice::for_images(std::int32_t site, const Body& bo
 }
 
 void Lattice::leave(const State& state, simd::BinKernel kernel, std::size_t begin, std::size_t end) {
-    const simd::BinView bin{state.record.data(), static_cast<std::int64_t>(state.size()), next_site_.data(),
-                            lower_x_,            lower_y_,  1.0 / site_x_, 1.0 / site_y_, columns_, rows_,
-                            row_stride_,         origin_};
+    const simd::BinView bin{state.record.data(),
+                            static_cast<std::int64_t>(state.size()),
+                            next_site_.data(),
+                            lower_x_,
+                            lower_y_,
+                            1.0 / site_x_,
+                            1.0 / site_y_,
+                            columns_,
+                            rows_,
+                            row_stride_,
+                            origin_};
     kernel(bin, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end));
     const bool periodic = period_x_ > 0 || period_y_ > 0;
     for (std::size_t i = begin; i < end; ++i) {
         const std::int32_t old = site_[i];
         if (old == next_site_[i] || old < 0) continue;
         x_[static_cast<std::size_t>(old)] = simd::empty_site;
-        if (periodic) for_images(old, [&](std::size_t image, double, double) { x_[image] = simd::empty_site; });
+        if (periodic)
+            for_images(old, [&](std::size_t image, double, double) { x_[image] = simd::empty_site; });
     }
 }
 

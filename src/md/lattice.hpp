@@ -1,4 +1,5 @@
-// Site arrays of the vectorised lattice algorithm (md-vectorised-lattice part 1): geometry, occupation, halo images.
+// Site arrays of the vectorised lattice algorithm (md-vectorised-lattice part 1): geometry, occupation, halo
+// images.
 #pragma once
 
 #include "core/column.hpp"

@@ -43,8 +43,17 @@ void LinkCells::build(const State& state, simd::BinKernel kernel, int threads) {
         owner_.resize(n + block_width, 0);
         for (Column<double>* column : {&x_, &y_, &radius_}) column->resize(n + block_width, 0.0);
     }
-    const simd::BinView bin{state.record.data(), static_cast<std::int64_t>(n), cell_.data(), lower_x_, lower_y_,
-                            1.0 / cell_x_,       1.0 / cell_y_,                columns_,     rows_,    columns_, 0};
+    const simd::BinView bin{state.record.data(),
+                            static_cast<std::int64_t>(n),
+                            cell_.data(),
+                            lower_x_,
+                            lower_y_,
+                            1.0 / cell_x_,
+                            1.0 / cell_y_,
+                            columns_,
+                            rows_,
+                            columns_,
+                            0};
     for_tiles(state.tiles(), threads, [&](std::size_t tile) {
         kernel(bin, static_cast<std::int64_t>(tile * tile_size),
                static_cast<std::int64_t>(std::min(n, (tile + 1) * tile_size)));
@@ -66,7 +75,8 @@ void LinkCells::build(const State& state, simd::BinKernel kernel, int threads) {
 }
 
 simd::CellView LinkCells::view() const {
-    return {x_.data(), y_.data(), radius_.data(), owner_.data(), start_.data(), columns_, rows_, periodic_x_, periodic_y_};
+    return {x_.data(), y_.data(), radius_.data(), owner_.data(), start_.data(),
+            columns_,  rows_,     periodic_x_,    periodic_y_};
 }
 
 } // namespace sandlane::md

@@ -1,4 +1,5 @@
-// Link cells (md-spheres 5.2): particles counting-sorted by cell at every step. One cell per direction is brute force.
+// Link cells (md-spheres 5.2): particles counting-sorted by cell at every step. One cell per direction is
+// brute force.
 #pragma once
 
 #include "core/column.hpp"

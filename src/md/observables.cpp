@@ -20,12 +20,14 @@ template <class Body> void for_near_pairs(const scene::Scene& scene, const State
     if (n < 2) return;
     const Vec lower = scene.domain.lower, size = scene.domain.upper - lower;
     const double edge = 2 * *std::max_element(state.radius.begin(), state.radius.end());
-    const double period_x = scene.domain.periodic[0] ? size.x : 0, period_y = scene.domain.periodic[1] ? size.y : 0;
+    const double period_x = scene.domain.periodic[0] ? size.x : 0,
+                 period_y = scene.domain.periodic[1] ? size.y : 0;
     auto columns = static_cast<int>(std::clamp(size.x / edge, 1.0, 4096.0));
     auto rows = static_cast<int>(std::clamp(size.y / edge, 1.0, 4096.0));
     if (columns < 3) columns = 1;
     if (rows < 3) rows = 1;
-    std::vector<std::vector<std::uint32_t>> cells(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    std::vector<std::vector<std::uint32_t>> cells(static_cast<std::size_t>(columns) *
+                                                  static_cast<std::size_t>(rows));
     const auto place = [](double x, double length, int count) {
         return std::clamp(static_cast<int>(std::floor(x / length * count)), 0, count - 1);
     };
@@ -66,7 +68,7 @@ using ContactKernel = ContactForce (*)(const laws::PairState<double>&, const law
 template <class Normal> ContactKernel with_tangential(int tangential) {
     int position = 0;
     ContactKernel kernel = nullptr;
-#define TANGENTIAL(type, choice)                                                                                       \
+#define TANGENTIAL(type, choice)                                                                             \
     if (position++ == tangential) kernel = contact_force<Normal, laws::type>;
 #include "laws/laws.def"
     return kernel;
@@ -75,7 +77,7 @@ template <class Normal> ContactKernel with_tangential(int tangential) {
 ContactKernel contact_kernel(const Plan& plan) {
     int position = 0;
     ContactKernel kernel = nullptr;
-#define NORMAL(type, choice)                                                                                           \
+#define NORMAL(type, choice)                                                                                 \
     if (position++ == plan.normal) kernel = with_tangential<laws::type>(plan.tangential);
 #include "laws/laws.def"
     return kernel;
@@ -109,24 +111,33 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
     const ContactKernel kernel = contact_kernel(plan);
     const double rate = 1 / plan.dt;
     const int materials = static_cast<int>(scene.materials.size());
-    const auto spin = [&](std::size_t i) { return state.spin() ? state.radius[i] * state.value(i, 2, 1) * rate : 0.0; };
+    const auto spin = [&](std::size_t i) {
+        return state.spin() ? state.radius[i] * state.value(i, 2, 1) * rate : 0.0;
+    };
     const auto coefficients_of = [&](int a, int b) -> laws::PairCoefficients<double> {
         const double* c = coefficients.data() + (a * materials + b) * laws::pair_coefficients;
         return {c[0], c[1], c[2], c[3]};
     };
     // Half the trace of -(1/V) sum l f with l from centre to contact, V = pi R^2 (8.1): R (-f.n)/(2 pi R^2).
-    const auto press = [&](std::size_t i, double inward) { o.pressure[i] += inward / (2 * std::numbers::pi * state.radius[i]); };
+    const auto press = [&](std::size_t i, double inward) {
+        o.pressure[i] += inward / (2 * std::numbers::pi * state.radius[i]);
+    };
 
     for_near_pairs(scene, state, [&](std::size_t i, std::size_t j, double dx, double dy) {
         const double reach = state.radius[i] + state.radius[j];
         if (!(dx * dx + dy * dy < reach * reach)) return;
-        const laws::PairState<double> s{dx, dy, (state.value(j, 0, 1) - state.value(i, 0, 1)) * rate,
-                                        (state.value(j, 1, 1) - state.value(i, 1, 1)) * rate, spin(i) + spin(j), reach,
+        const laws::PairState<double> s{dx,
+                                        dy,
+                                        (state.value(j, 0, 1) - state.value(i, 0, 1)) * rate,
+                                        (state.value(j, 1, 1) - state.value(i, 1, 1)) * rate,
+                                        spin(i) + spin(j),
+                                        reach,
                                         state.inverse_radius[i] + state.inverse_radius[j]};
         const ContactForce f = kernel(s, coefficients_of(state.material[i], state.material[j]));
         ++o.contacts;
         o.elastic += f.energy;
-        o.largest_overlap = std::max(o.largest_overlap, f.overlap / std::min(state.radius[i], state.radius[j]));
+        o.largest_overlap =
+            std::max(o.largest_overlap, f.overlap / std::min(state.radius[i], state.radius[j]));
         const double inward = -(f.x * dx + f.y * dy) / std::sqrt(dx * dx + dy * dy);
         press(i, inward);
         press(j, inward);
@@ -135,16 +146,20 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
     for (std::size_t i = 0; i < state.size(); ++i)
         walls.for_touching({state.value(i, 0, 0), state.value(i, 1, 0), 0}, state.radius[i],
                            [&](std::size_t e, const WallContact& c) {
-            const laws::PairState<double> s{c.distance * c.direction.x, c.distance * c.direction.y,
-                                            c.velocity.x - state.value(i, 0, 1) * rate,
-                                            c.velocity.y - state.value(i, 1, 1) * rate, spin(i) + c.spin,
-                                            state.radius[i] + c.radius, state.inverse_radius[i] + c.inverse_radius};
-            const ContactForce f = kernel(s, coefficients_of(state.material[i], walls.elements()[e].material));
-            ++o.wall_contacts;
-            o.elastic += f.energy;
-            o.largest_overlap = std::max(o.largest_overlap, f.overlap / state.radius[i]);
-            press(i, -(f.x * c.direction.x + f.y * c.direction.y));
-        });
+                               const laws::PairState<double> s{c.distance * c.direction.x,
+                                                               c.distance * c.direction.y,
+                                                               c.velocity.x - state.value(i, 0, 1) * rate,
+                                                               c.velocity.y - state.value(i, 1, 1) * rate,
+                                                               spin(i) + c.spin,
+                                                               state.radius[i] + c.radius,
+                                                               state.inverse_radius[i] + c.inverse_radius};
+                               const ContactForce f = kernel(
+                                   s, coefficients_of(state.material[i], walls.elements()[e].material));
+                               ++o.wall_contacts;
+                               o.elastic += f.energy;
+                               o.largest_overlap = std::max(o.largest_overlap, f.overlap / state.radius[i]);
+                               press(i, -(f.x * c.direction.x + f.y * c.direction.y));
+                           });
     return o;
 }
 

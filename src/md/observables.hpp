@@ -1,5 +1,5 @@
-// What a run measures of its state: energies, momentum, contacts, overlap, pressure. Reads a state, changes nothing;
-// scalar, with the same formula text as the kernels.
+// What a run measures of its state: energies, momentum, contacts, overlap, pressure. Reads a state, changes
+// nothing; scalar, with the same formula text as the kernels.
 #pragma once
 
 #include "md/plan.hpp"
@@ -21,7 +21,7 @@ struct Observables {
     std::vector<double> pressure; // per storage index: trace of the contact stress over two (8.1)
 };
 
-[[nodiscard]] Observables observe(const scene::Scene& scene, const Plan& plan, const State& state, const Walls& walls,
-                                  const std::vector<double>& coefficients);
+[[nodiscard]] Observables observe(const scene::Scene& scene, const Plan& plan, const State& state,
+                                  const Walls& walls, const std::vector<double>& coefficients);
 
 } // namespace sandlane::md

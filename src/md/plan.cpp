@@ -22,9 +22,12 @@ double reduced_modulus(const scene::Material& m) {
 
 int order_of(scene::Integrator integrator) {
     switch (integrator) {
-    case scene::Integrator::gear4: return 4;
-    case scene::Integrator::gear5: return 5;
-    case scene::Integrator::gear6: return 6;
+    case scene::Integrator::gear4:
+        return 4;
+    case scene::Integrator::gear5:
+        return 5;
+    case scene::Integrator::gear6:
+        return 6;
     }
     return 5;
 }
@@ -32,7 +35,8 @@ int order_of(scene::Integrator integrator) {
 // Largest stable w dt of the integrator at damping ratio z, interpolated in table 4.6.
 double stable_phase(int order, double z) {
     static constexpr double at[] = {0.0, 0.3, 1.0, 3.0};
-    static constexpr double bound[3][4] = {{1.41, 0.69, 0.26, 0.091}, {0.94, 0.42, 0.148, 0.050}, {0.81, 0.25, 0.081, 0.028}};
+    static constexpr double bound[3][4] = {
+        {1.41, 0.69, 0.26, 0.091}, {0.94, 0.42, 0.148, 0.050}, {0.81, 0.25, 0.081, 0.028}};
     const double* b = bound[order - 4];
     for (int n = 1; n < 4; ++n)
         if (z <= at[n]) return b[n - 1] + (b[n] - b[n - 1]) * (z - at[n - 1]) / (at[n] - at[n - 1]);
@@ -99,8 +103,8 @@ std::vector<double> pair_table(const Scene& scene) {
                                   (pair.first == q.name && pair.second == p.name);
                 if (!here) continue;
                 const double elastic = linear ? pair.stiffness : (2.0 / 3.0) * pair.young;
-                const double values[] = {elastic, linear ? pair.damping : pair.dissipation, pair.tangential_damping,
-                                         pair.friction};
+                const double values[] = {elastic, linear ? pair.damping : pair.dissipation,
+                                         pair.tangential_damping, pair.friction};
                 for (int k = 0; k < laws::pair_coefficients; ++k)
                     if (values[k] >= 0) c[k] = values[k];
             }
@@ -147,7 +151,8 @@ Derived derive(const Scene& scene, const Needs& needs) {
     d.restitution_max = 0;
     const int order = order_of(scene.md.integrator);
     const std::vector<double> table = pair_table(scene);
-    // Two of the lightest grains make the stiffest contact, two of the heaviest (or one on a wall) the deepest.
+    // Two of the lightest grains make the stiffest contact, two of the heaviest (or one on a wall) the
+    // deepest.
     const double light = 0.5 * needs.mass_min, heavy = needs.mass_max;
     const double inertia = scene.md.inertia == scene::Inertia::disc ? 0.5 : 0.4;
     for (std::size_t p = 0; p < table.size(); p += laws::pair_coefficients) {
@@ -170,12 +175,13 @@ Derived derive(const Scene& scene, const Needs& needs) {
     return d;
 }
 
-// ---- the plan ---------------------------------------------------------------------------------------------------
+// ---- the plan
+// ---------------------------------------------------------------------------------------------------
 
 namespace {
 
-// Site edges that divide the domain and keep dx^2 + dy^2 <= r_min^2, 2 R_max <= reach min(dx, dy) (items 2-6).
-// Returns false if no reach up to 4 serves.
+// Site edges that divide the domain and keep dx^2 + dy^2 <= r_min^2, 2 R_max <= reach min(dx, dy) (items
+// 2-6). Returns false if no reach up to 4 serves.
 bool fit_lattice(const Scene& scene, const Needs& needs, Plan& plan) {
     const Vec size = plan.upper - plan.lower;
     const double edge = (2 - scene.md.delta) * needs.radius_min / std::numbers::sqrt2;
@@ -198,10 +204,13 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     const bool fits = needs.radius_max > 0 && fit_lattice(scene, needs, plan);
     if (asks && needs.radius_max > 0 && !fits)
         fail(Exit::invalid_input,
-             "md.neighbours = \"lattice\": radius ratio {:.4g} and domain do not suit the lattice; with delta = {} the "
-             "9x9 mask serves ratios up to {:.4g} and a periodic side needs 2 reach + 1 sites (here {} x {} sites, "
+             "md.neighbours = \"lattice\": radius ratio {:.4g} and domain do not suit the lattice; with "
+             "delta = {} the "
+             "9x9 mask serves ratios up to {:.4g} and a periodic side needs 2 reach + 1 sites (here {} x {} "
+             "sites, "
              "reach {}). Use md.neighbours = \"auto\" or \"link-cells\".",
-             ratio, scene.md.delta, lattice_ratio_bound(4, scene.md.delta), plan.columns, plan.rows, plan.reach);
+             ratio, scene.md.delta, lattice_ratio_bound(4, scene.md.delta), plan.columns, plan.rows,
+             plan.reach);
     plan.neighbours = wanted;
     if (wanted != NeighbourMethod::automatic) {
         if (asks && needs.radius_max == 0) plan.neighbours = NeighbourMethod::brute_force;
@@ -215,14 +224,21 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
         plan.chosen.push_back("neighbours: brute force, 32 grains or fewer");
     } else if (!fits) {
         plan.neighbours = NeighbourMethod::link_cells;
-        plan.chosen.push_back(fmt::format("neighbours: link cells, radius ratio {:.3g} or a small period exceeds the lattice (bound {:.3g})", ratio, lattice_ratio_bound(4, scene.md.delta)));
+        plan.chosen.push_back(fmt::format("neighbours: link cells, radius ratio {:.3g} or a small period "
+                                          "exceeds the lattice (bound {:.3g})",
+                                          ratio, lattice_ratio_bound(4, scene.md.delta)));
     } else if (plan.reach > 3 || sites > 64 * n) {
         plan.neighbours = NeighbourMethod::link_cells;
-        plan.chosen.push_back(fmt::format("neighbours: link cells, the lattice would have {:.3g} sites per grain and reach {}", sites / n, plan.reach));
+        plan.chosen.push_back(
+            fmt::format("neighbours: link cells, the lattice would have {:.3g} sites per grain and reach {}",
+                        sites / n, plan.reach));
     } else {
         plan.neighbours = NeighbourMethod::lattice_half;
         plan.may_switch = true;
-        plan.chosen.push_back(fmt::format("neighbours: lattice, half {0}x{0} mask; radius ratio {1:.4g} <= {2:.4g}; link cells take over if two centres meet in a site", 2 * plan.reach + 1, ratio, lattice_ratio_bound(plan.reach, scene.md.delta)));
+        plan.chosen.push_back(fmt::format("neighbours: lattice, half {0}x{0} mask; radius ratio {1:.4g} <= "
+                                          "{2:.4g}; link cells take over if two centres meet in a site",
+                                          2 * plan.reach + 1, ratio,
+                                          lattice_ratio_bound(plan.reach, scene.md.delta)));
     }
 }
 
@@ -243,17 +259,23 @@ void note_skipped(const Scene& scene, const Needs& needs, Plan& plan) {
 void check_time_step(const Scene& scene, const Derived& derived, double dt) {
     if (!(dt > derived.critical_dt)) return;
     fail(Exit::invalid_input,
-         "md.dt = {:.4g} s is above the critical time step {:.4g} s of the stiffest contact with {} (allowed: 0 to that; "
+         "md.dt = {:.4g} s is above the critical time step {:.4g} s of the stiffest contact with {} "
+         "(allowed: 0 to that; "
          "recommended: {:.3g} s). Lower md.dt, leave it out, or soften the material.",
-         dt, derived.critical_dt, scene.md.integrator == scene::Integrator::gear4 ? "gear4" : scene.md.integrator == scene::Integrator::gear5 ? "gear5" : "gear6", derived.recommended_dt);
+         dt, derived.critical_dt,
+         scene.md.integrator == scene::Integrator::gear4   ? "gear4"
+         : scene.md.integrator == scene::Integrator::gear5 ? "gear5"
+                                                           : "gear6",
+         derived.recommended_dt);
 }
 
 } // namespace
 
-Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, simd::Isa isa, int threads) {
+Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, simd::Isa isa,
+               const ThreadChoice& threads) {
     Plan plan;
     plan.isa = isa;
-    plan.threads = threads;
+    plan.threads = threads.count;
     plan.lower = scene.domain.lower;
     plan.upper = scene.domain.upper;
     plan.order = order_of(scene.md.integrator);
@@ -269,12 +291,15 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     check_time_step(scene, derived, plan.dt);
     if (scene.md.max_speed * plan.dt > 0.1 * needs.radius_min && needs.radius_min > 0)
         fail(Exit::invalid_input,
-             "md.dt = {:.4g} s: a grain of md.max_speed = {} m/s moves {:.3g} m per step, more than 0.1 R_min = {:.3g} m; "
+             "md.dt = {:.4g} s: a grain of md.max_speed = {} m/s moves {:.3g} m per step, more than 0.1 "
+             "R_min = {:.3g} m; "
              "it could pass through a wall. Lower md.dt below {:.3g} s.",
-             plan.dt, scene.md.max_speed, scene.md.max_speed * plan.dt, 0.1 * needs.radius_min, 0.1 * needs.radius_min / scene.md.max_speed);
+             plan.dt, scene.md.max_speed, scene.md.max_speed * plan.dt, 0.1 * needs.radius_min,
+             0.1 * needs.radius_min / scene.md.max_speed);
     plan.steps = std::llround(scene.md.duration / plan.dt);
     choose_neighbours(scene, needs, plan);
-    plan.chosen.insert(plan.chosen.begin(), fmt::format("kernels: {} ({} threads{}{})", simd::isa_name(isa), threads, plan.threads_reason.empty() ? "" : ", from ", plan.threads_reason));
+    plan.chosen.insert(plan.chosen.begin(), fmt::format("kernels: {}; threads: {} ({})", simd::isa_name(isa),
+                                                        threads.count, threads.reason));
     note_skipped(scene, needs, plan);
     return plan;
 }

@@ -1,6 +1,8 @@
-// What a scene needs, and which kernels serve it: decided once, printed by `sandlane check`, recorded in every output.
+// What a scene needs, and which kernels serve it: decided once, printed by `sandlane check`, recorded in
+// every output.
 #pragma once
 
+#include "core/parallel.hpp"
 #include "scene/initial_state.hpp"
 #include "scene/scene.hpp"
 #include "simd/tables.hpp"
@@ -23,19 +25,19 @@ struct Needs {
 
 // Physics derived from the scene (md-spheres 2.1-2.3, 4.6).
 struct Derived {
-    double collision_time = 0;   // s, smallest over material pairs: pi/w0 or the viscoelastic t_c at max_speed
-    double critical_dt = 0;      // s: stability bound of the integrator for the stiffest contact
-    double recommended_dt = 0;   // s: t_c/50, and less if damping asks for it
+    double collision_time = 0; // s, smallest over material pairs: pi/w0 or the viscoelastic t_c at max_speed
+    double critical_dt = 0;    // s: stability bound of the integrator for the stiffest contact
+    double recommended_dt = 0; // s: t_c/50, and less if damping asks for it
     double restitution_min = 1, restitution_max = 0; // over material pairs, at max_speed
-    double overlap_ratio = 0;    // largest xi_max/R_min at max_speed
+    double overlap_ratio = 0;                        // largest xi_max/R_min at max_speed
 };
 
 struct Plan {
     simd::Isa isa = simd::Isa::scalar;
     int threads = 1;
-    std::string threads_reason;
     scene::NeighbourMethod neighbours = scene::NeighbourMethod::link_cells; // never automatic
-    bool may_switch = false; // neighbours = "auto": link cells take over when the lattice's precondition fails
+    bool may_switch =
+        false; // neighbours = "auto": link cells take over when the lattice's precondition fails
     int order = 5;
     bool spin = false, many_materials = false, many_radii = false, walls = false;
     int normal = 0, tangential = 0; // positions in laws.def
@@ -46,16 +48,17 @@ struct Plan {
     // Lattice geometry (md-vectorised-lattice 1.1).
     int reach = 2;
     std::int32_t columns = 0, rows = 0;
-    double site_x = 0, site_y = 0; // m
+    double site_x = 0, site_y = 0;            // m
     std::vector<std::string> chosen, skipped; // one reason per line
 };
 
 [[nodiscard]] Needs analyse(const scene::Scene& scene, const std::vector<scene::GrainState>& grains);
 [[nodiscard]] Derived derive(const scene::Scene& scene, const Needs& needs);
 
-// Throws Error(invalid_input) for a violated precondition of the method asked for (time step, polydispersity, periods).
-[[nodiscard]] Plan make_plan(const scene::Scene& scene, const Needs& needs, const Derived& derived, simd::Isa isa,
-                             int threads);
+// Throws Error(invalid_input) for a violated precondition of the method asked for (time step, polydispersity,
+// periods).
+[[nodiscard]] Plan make_plan(const scene::Scene& scene, const Needs& needs, const Derived& derived,
+                             simd::Isa isa, const ThreadChoice& threads);
 
 // Largest R_max/R_min that a mask of the given reach serves: reach (2 - delta)/(2 sqrt 2).
 [[nodiscard]] double lattice_ratio_bound(int reach, double delta);

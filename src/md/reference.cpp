@@ -1,6 +1,6 @@
-// The scalar reference of every molecular dynamics kernel: the book's loops, one particle or pair at a time, sharing
-// only the formulas (laws/, motion/) with the vector kernels. Compiled without the vectoriser. The order of additions
-// is the documented one of simd/md/*.ipp, so results are equal bit for bit.
+// The scalar reference of every molecular dynamics kernel: the book's loops, one particle or pair at a time,
+// sharing only the formulas (laws/, motion/) with the vector kernels. Compiled without the vectoriser. The
+// order of additions is the documented one of simd/md/*.ipp, so results are equal bit for bit.
 #include "laws/contact.hpp"
 #include "motion/gear.hpp"
 #include "simd/tables.hpp"
@@ -27,12 +27,13 @@ double nearest_image(double d, double half, double period) {
 }
 
 template <class Normal, class Tangential, bool many_materials>
-double pair_forces(const PairView& view, const std::int32_t* first, const std::int32_t* second, std::int32_t count,
-                   Target target, double largest) {
+double pair_forces(const PairView& view, const std::int32_t* first, const std::int32_t* second,
+                   std::int32_t count, Target target, double largest) {
     for (std::int32_t n = 0; n < count; ++n) {
         const Particle a = particle(view, first[n]), b = particle(view, second[n]);
         std::ptrdiff_t pair = 0;
-        if (many_materials) pair = std::ptrdiff_t{view.material[first[n]]} * view.materials + view.material[second[n]];
+        if (many_materials)
+            pair = std::ptrdiff_t{view.material[first[n]]} * view.materials + view.material[second[n]];
         const double* c = view.coefficients + pair * laws::pair_coefficients;
         const laws::PairState<double> state{nearest_image(b.x - a.x, view.half_x, view.period_x),
                                             nearest_image(b.y - a.y, view.half_y, view.period_y),
@@ -95,28 +96,30 @@ std::int64_t visit_row(const LatticeView& lattice, bool many_radii, std::int32_t
 }
 
 // The half mask adds to both partners, so its order matters: groups of eight sites, then offsets, then sites.
-std::int64_t visit_row_grouped(const LatticeView& lattice, bool many_radii, std::int32_t row, int k_begin, int k_end,
-                               Visit& visit) {
+std::int64_t visit_row_grouped(const LatticeView& lattice, bool many_radii, std::int32_t row, int k_begin,
+                               int k_end, Visit& visit) {
     constexpr int group = 8;
     std::int64_t occupied = 0;
     const std::ptrdiff_t row_start = lattice.origin + row * lattice.row_stride;
     const std::ptrdiff_t row_end = row_start + lattice.columns;
     for (std::ptrdiff_t first = row_start; first < row_end; first += group) {
         const std::ptrdiff_t last = first + group < row_end ? first + group : row_end;
-        for (std::ptrdiff_t site = first; site < last; ++site) occupied += lattice.x[site] != empty_site ? 1 : 0;
+        for (std::ptrdiff_t site = first; site < last; ++site)
+            occupied += lattice.x[site] != empty_site ? 1 : 0;
         for (int k = k_begin; k < k_end; ++k)
             for (std::ptrdiff_t site = first; site < last; ++site) {
                 const std::ptrdiff_t partner = site + lattice.offsets[k];
                 if (lattice.x[site] == empty_site || lattice.x[partner] == empty_site) continue;
-                if (near(lattice, site, partner, many_radii)) visit(lattice.owner[site], lattice.owner[partner]);
+                if (near(lattice, site, partner, many_radii))
+                    visit(lattice.owner[site], lattice.owner[partner]);
             }
     }
     return occupied;
 }
 
 template <bool many_radii>
-SweepResult lattice_full(const LatticeView& lattice, const PairView& view, PairKernel kernel, std::int32_t row_begin,
-                         std::int32_t row_end) {
+SweepResult lattice_full(const LatticeView& lattice, const PairView& view, PairKernel kernel,
+                         std::int32_t row_begin, std::int32_t row_end) {
     const int offsets = (2 * lattice.reach + 1) * (2 * lattice.reach + 1) - 1;
     Visit visit{view, kernel, Target::first};
     SweepResult result;
@@ -127,8 +130,8 @@ SweepResult lattice_full(const LatticeView& lattice, const PairView& view, PairK
 }
 
 template <bool many_radii>
-SweepResult lattice_half(const LatticeView& lattice, const PairView& view, PairKernel kernel, std::int32_t row_begin,
-                         std::int32_t row_end) {
+SweepResult lattice_half(const LatticeView& lattice, const PairView& view, PairKernel kernel,
+                         std::int32_t row_begin, std::int32_t row_end) {
     const int side = 2 * lattice.reach + 1;
     const int begin = (side * side - 1) / 2;
     SweepResult result;
@@ -154,7 +157,8 @@ SweepResult lattice_half(const LatticeView& lattice, const PairView& view, PairK
 }
 
 // All particles of the cells next to (column, row), each cell once, rows outermost.
-template <class Body> void for_neighbour_cells(std::int32_t c, std::int32_t cells, bool periodic, const Body& body) {
+template <class Body>
+void for_neighbour_cells(std::int32_t c, std::int32_t cells, bool periodic, const Body& body) {
     if (cells == 1) return body(0);
     std::int32_t neighbours[3] = {c - 1, c, c + 1};
     if (periodic && c == 0) neighbours[0] = c, neighbours[1] = c + 1, neighbours[2] = cells - 1;
@@ -226,7 +230,8 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
             double &x = values[0][0], &y = values[1][0];
             if (view.period_x > 0) x = wrap(x, view.lower_x, view.upper_x, view.period_x, view.image_x[i]);
             if (view.period_y > 0) y = wrap(y, view.lower_y, view.upper_y, view.period_y, view.image_y[i]);
-            if (!(x >= view.lower_x && x < view.upper_x && y >= view.lower_y && y < view.upper_y)) ++result.outside;
+            if (!(x >= view.lower_x && x < view.upper_x && y >= view.lower_y && y < view.upper_y))
+                ++result.outside;
             record[0] = x;
             record[1] = y;
             record[2] = values[0][1] * view.inverse_dt;

@@ -24,13 +24,15 @@ bool is_lattice(NeighbourMethod method) {
 
 } // namespace
 
-Simulation::Simulation(scene::Scene scene, const std::vector<scene::GrainState>& grains, const Needs& needs, Plan plan)
+Simulation::Simulation(scene::Scene scene, const std::vector<scene::GrainState>& grains, const Needs& needs,
+                       Plan plan)
     : scene_(std::move(scene)), needs_(needs), plan_(std::move(plan)), kernels_(&simd::md_kernels(plan_.isa)),
       coefficients_(pair_table(scene_)), walls_(scene_, plan_, needs_) {
     if (is_lattice(plan_.neighbours))
         lattice_ = Lattice(scene_, plan_, needs_.radius_max);
     else
-        cells_ = LinkCells(scene_, plan_, needs_.radius_max, plan_.neighbours == NeighbourMethod::brute_force);
+        cells_ =
+            LinkCells(scene_, plan_, needs_.radius_max, plan_.neighbours == NeighbourMethod::brute_force);
     start(grains);
 }
 
@@ -53,12 +55,14 @@ void Simulation::start(const std::vector<scene::GrainState>& grains) {
         const double* f = state_.force.data() + i * simd::force_fields;
         state_.value(i, 0, 2) = half_dt2 * (f[0] * state_.inverse_mass[i] + scene_.domain.gravity.x);
         state_.value(i, 1, 2) = half_dt2 * (f[1] * state_.inverse_mass[i] + scene_.domain.gravity.y);
-        if (plan_.spin) state_.value(i, 2, 2) = half_dt2 * (f[2] * state_.spin_factor[i] + scene_.domain.gravity.z);
+        if (plan_.spin)
+            state_.value(i, 2, 2) = half_dt2 * (f[2] * state_.spin_factor[i] + scene_.domain.gravity.z);
     }
     state_.force.fill(0.0);
 }
 
-// ---- the time step ------------------------------------------------------------------------------------------------
+// ---- the time step
+// ------------------------------------------------------------------------------------------------
 
 void Simulation::run(std::int64_t steps) {
     const std::int64_t end = step_ + steps;
@@ -109,8 +113,10 @@ void Simulation::integrate(bool correct, bool predict) {
     largest_speed_ = std::sqrt(speed2);
     if (largest_speed_ * plan_.dt > 0.1 * needs_.radius_min)
         fail(Exit::unstable,
-             "step {}, t = {:.6g} s: a grain moves at {:.4g} m/s, {:.3g} m per step, more than 0.1 R_min = {:.3g} m. The "
-             "time step is too large for this flow, or the run has become unstable; lower md.dt below {:.3g} s.",
+             "step {}, t = {:.6g} s: a grain moves at {:.4g} m/s, {:.3g} m per step, more than 0.1 R_min = "
+             "{:.3g} m. The "
+             "time step is too large for this flow, or the run has become unstable; lower md.dt below {:.3g} "
+             "s.",
              step_, time(), largest_speed_, largest_speed_ * plan_.dt, 0.1 * needs_.radius_min,
              0.1 * needs_.radius_min / largest_speed_);
     walls_.account(1.25 * plan_.dt * (largest_speed_ + walls_.fastest()));
@@ -130,7 +136,8 @@ void Simulation::compute_forces() {
 }
 
 void Simulation::pair_forces() {
-    const simd::PairKernel pair = kernels_->pair[plan_.normal][plan_.tangential][plan_.many_materials ? 1 : 0];
+    const simd::PairKernel pair =
+        kernels_->pair[plan_.normal][plan_.tangential][plan_.many_materials ? 1 : 0];
     const simd::PairView pairs = pair_view();
     const bool on_lattice = is_lattice(plan_.neighbours);
     if (!on_lattice) cells_.build(state_, kernels_->bin, plan_.threads);
@@ -144,7 +151,8 @@ void Simulation::pair_forces() {
     const simd::LatticeKernel lattice_kernel = lattice_kernels[plan_.many_radii ? 1 : 0];
     std::vector<simd::SweepResult> results(tiles);
     for_tiles_dynamic(tiles, plan_.threads, [&](std::size_t tile) {
-        const std::int32_t begin = static_cast<std::int32_t>(tile) * height, end = std::min(rows, begin + height);
+        const std::int32_t begin = static_cast<std::int32_t>(tile) * height,
+                           end = std::min(rows, begin + height);
         results[tile] = on_lattice ? lattice_kernel(sites, pairs, pair, begin, end)
                                    : kernels_->cells(cells, pairs, pair, begin, end);
     });
@@ -157,13 +165,16 @@ void Simulation::pair_forces() {
     if (occupied != static_cast<std::int64_t>(state_.size())) {
         const Lattice::Clash clash = lattice_.find_clash(state_);
         const auto a = static_cast<std::size_t>(clash.first), b = static_cast<std::size_t>(clash.second);
-        const std::string what = fmt::format(
-            "DELTA_EXCEEDED: grains {} and {} share a lattice site at step {}: their overlap exceeds delta = {} of R_min",
-            state_.id[a], state_.id[b], step_, scene_.md.delta);
+        const std::string what = fmt::format("DELTA_EXCEEDED: grains {} and {} share a lattice site at step "
+                                             "{}: their overlap exceeds delta = {} of R_min",
+                                             state_.id[a], state_.id[b], step_, scene_.md.delta);
         if (!plan_.may_switch)
-            fail(Exit::unstable, "{}. Use md.neighbours = \"auto\", a larger md.delta, a stiffer material or a smaller md.dt.",
-                 what);
-        use_link_cells(what);
+            fail(
+                Exit::unstable,
+                "{}. Use md.neighbours = \"auto\", a larger md.delta, a stiffer material or a smaller md.dt.",
+                what);
+        use_link_cells();
+        events_.push_back(what + "; link cells from here on");
         state_.force.fill(0.0);
         return pair_forces();
     }
@@ -173,11 +184,12 @@ void Simulation::pair_forces() {
 void Simulation::wall_forces() {
     if (walls_.empty()) return;
     const bool list = plan_.isa != simd::Isa::scalar;
-    const WallResult worst =
-        walls_.add_forces(state_, coefficients_, static_cast<int>(scene_.materials.size()), plan_.threads, list);
+    const WallResult worst = walls_.add_forces(
+        state_, coefficients_, static_cast<int>(scene_.materials.size()), plan_.threads, list);
     if (worst.largest_ratio < 0.9) return;
     fail(Exit::unstable,
-         "step {}, t = {:.6g} s: grain {} overlaps wall \"{}\" by {:.3g} of its radius (allowed: 0.9). Stiffen the "
+         "step {}, t = {:.6g} s: grain {} overlaps wall \"{}\" by {:.3g} of its radius (allowed: 0.9). "
+         "Stiffen the "
          "material, lower md.dt, or check the wall's motion.",
          step_, time(), state_.id[static_cast<std::size_t>(worst.grain)],
          scene_.walls[static_cast<std::size_t>(worst.wall)].name, worst.largest_ratio);
@@ -213,12 +225,19 @@ simd::MotionView Simulation::motion_view() {
 simd::PairView Simulation::pair_view() {
     const Vec size = plan_.upper - plan_.lower;
     const bool px = scene_.domain.periodic[0], py = scene_.domain.periodic[1];
-    return {state_.record.data(),  state_.material.data(),        state_.force.data(),
-            px ? size.x : 0.0,     py ? size.y : 0.0,             px ? 0.5 * size.x : infinity,
-            py ? 0.5 * size.y : infinity, coefficients_.data(),   static_cast<std::int32_t>(scene_.materials.size())};
+    return {state_.record.data(),
+            state_.material.data(),
+            state_.force.data(),
+            px ? size.x : 0.0,
+            py ? size.y : 0.0,
+            px ? 0.5 * size.x : infinity,
+            py ? 0.5 * size.y : infinity,
+            coefficients_.data(),
+            static_cast<std::int32_t>(scene_.materials.size())};
 }
 
-// ---- between steps ------------------------------------------------------------------------------------------------
+// ---- between steps
+// ------------------------------------------------------------------------------------------------
 
 // Storage order: strips of eight rows, column by column, so that neighbours lie close in memory.
 void Simulation::sort_by_place() {
@@ -235,7 +254,8 @@ void Simulation::sort_by_place() {
     }
     std::vector<std::uint32_t> order(n);
     std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
     state_.reorder(order);
     walls_.invalidate();
     if (is_lattice(plan_.neighbours)) lattice_.clear(state_);
@@ -273,7 +293,8 @@ void Simulation::insert_due() {
             ++delayed_;
             waiting_[next_waiting_].insert_at = static_cast<double>(step_ + retry) * plan_.dt;
             const auto from = waiting_.begin() + static_cast<std::ptrdiff_t>(next_waiting_);
-            std::stable_sort(from, waiting_.end(), [](const auto& a, const auto& b) { return a.insert_at < b.insert_at; });
+            std::stable_sort(from, waiting_.end(),
+                             [](const auto& a, const auto& b) { return a.insert_at < b.insert_at; });
             continue;
         }
         state_.append(grain, plan_, plan_.dt);
@@ -291,17 +312,20 @@ void Simulation::handle_outside() {
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i < state_.size(); ++i) {
         const double* r = state_.record.data() + i * simd::record_fields;
-        const bool inside = r[0] >= plan_.lower.x && r[0] < plan_.upper.x && r[1] >= plan_.lower.y && r[1] < plan_.upper.y;
+        const bool inside =
+            r[0] >= plan_.lower.x && r[0] < plan_.upper.x && r[1] >= plan_.lower.y && r[1] < plan_.upper.y;
         if (inside) {
             kept.push_back(static_cast<std::uint32_t>(i));
             continue;
         }
         if (!std::isfinite(r[0]) || !std::isfinite(r[1]) || !std::isfinite(r[2]) || !std::isfinite(r[3]))
-            fail(Exit::unstable, "step {}, t = {:.6g} s: grain {} has position ({}, {}): the run is unstable; lower md.dt",
+            fail(Exit::unstable,
+                 "step {}, t = {:.6g} s: grain {} has position ({}, {}): the run is unstable; lower md.dt",
                  step_, time(), state_.id[i], r[0], r[1]);
         if (scene_.domain.outside == scene::Outside::error)
             fail(Exit::unstable,
-                 "step {}, t = {:.6g} s: grain {} left the domain at ({:.6g}, {:.6g}). Enlarge the domain, add walls, or set "
+                 "step {}, t = {:.6g} s: grain {} left the domain at ({:.6g}, {:.6g}). Enlarge the domain, "
+                 "add walls, or set "
                  "domain.outside = \"remove\".",
                  step_, time(), state_.id[i], r[0], r[1]);
         ++removed_;
@@ -311,12 +335,11 @@ void Simulation::handle_outside() {
     bin();
 }
 
-void Simulation::use_link_cells(const std::string& reason) {
+void Simulation::use_link_cells() {
     plan_.neighbours = NeighbourMethod::link_cells;
     plan_.may_switch = false;
     cells_ = LinkCells(scene_, plan_, needs_.radius_max, false);
     lattice_ = Lattice();
-    events_.push_back(reason + "; link cells from here on");
 }
 
 void Simulation::check_overlap(double overlap) const {
@@ -326,12 +349,14 @@ void Simulation::check_overlap(double overlap) const {
 void Simulation::fail_overlap(double overlap) const {
     const Observables now = observe();
     fail(Exit::unstable,
-         "step {}, t = {:.6g} s: two grains overlap by {:.4g} m, more than R_min = {:.4g} m (largest overlap of the last "
+         "step {}, t = {:.6g} s: two grains overlap by {:.4g} m, more than R_min = {:.4g} m (largest overlap "
+         "of the last "
          "complete step: {:.3g} R). The material is too soft for this load, or the time step too large.",
          step_, time(), overlap, needs_.radius_min, now.largest_overlap);
 }
 
-// ---- views of the state -------------------------------------------------------------------------------------------
+// ---- views of the state
+// -------------------------------------------------------------------------------------------
 
 Observables Simulation::observe() const {
     Walls now = walls_;
@@ -357,7 +382,9 @@ std::vector<double> Simulation::forces(simd::Isa isa, NeighbourMethod method) {
     bin();
     force_step_ = step_;
     compute_forces();
-    std::vector<double> result(state_.force.begin(), state_.force.begin() + static_cast<std::ptrdiff_t>(state_.size()) * simd::force_fields);
+    std::vector<double> result(state_.force.begin(),
+                               state_.force.begin() +
+                                   static_cast<std::ptrdiff_t>(state_.size()) * simd::force_fields);
     state_.force.fill(0.0);
     force_step_ = force_step;
     plan_ = plan;
@@ -372,7 +399,8 @@ namespace {
 std::vector<std::size_t> by_id(const State& state) {
     std::vector<std::size_t> order(state.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return state.id[a] < state.id[b]; });
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return state.id[a] < state.id[b]; });
     return order;
 }
 

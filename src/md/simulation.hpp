@@ -20,7 +20,8 @@ namespace sandlane::md {
 
 class Simulation {
 public:
-    Simulation(scene::Scene scene, const std::vector<scene::GrainState>& grains, const Needs& needs, Plan plan);
+    Simulation(scene::Scene scene, const std::vector<scene::GrainState>& grains, const Needs& needs,
+               Plan plan);
 
     // Runs n time steps; afterwards the state stands at time() = step() dt.
     void run(std::int64_t steps);
@@ -38,7 +39,8 @@ public:
     // 128-bit hash over the id-ordered state: equal hashes mean equal bits.
     [[nodiscard]] Hash128 state_hash() const;
 
-    // Forces of the present state [particle][force_fields] by the plan's kernels, or by another table (reference).
+    // Forces of the present state [particle][force_fields] by the plan's kernels, or by another table
+    // (reference).
     [[nodiscard]] std::vector<double> forces(simd::Isa isa, scene::NeighbourMethod method);
 
     [[nodiscard]] std::int64_t removed() const { return removed_; }
@@ -61,7 +63,7 @@ private:
     void wall_forces();
     void compute_forces();
     void handle_outside();
-    void use_link_cells(const std::string& reason);
+    void use_link_cells();
     [[noreturn]] void fail_overlap(double overlap) const;
     void check_overlap(double overlap) const;
     [[nodiscard]] simd::MotionView motion_view();

@@ -1,11 +1,13 @@
 #include "md/state.hpp"
 
+#include "core/error.hpp"
+
 namespace sandlane::md {
 
 std::size_t State::bytes() const {
-    return gear.bytes() + record.bytes() + force.bytes() + radius.bytes() + inverse_radius.bytes() + mass.bytes() +
-           inverse_mass.bytes() + spin_factor.bytes() + material.bytes() + image_x.bytes() + image_y.bytes() +
-           id.bytes();
+    return gear.bytes() + record.bytes() + force.bytes() + radius.bytes() + inverse_radius.bytes() +
+           mass.bytes() + inverse_mass.bytes() + spin_factor.bytes() + material.bytes() + image_x.bytes() +
+           image_y.bytes() + id.bytes();
 }
 
 void State::resize(std::size_t n) {
@@ -82,6 +84,18 @@ void State::reorder(std::span<const std::uint32_t> order_of) {
         image_y[n] = old.image_y[from];
         id[n] = old.id[from];
     }
+    force.fill(0.0);
+    park_padding();
+}
+
+void State::adopt(const Plan& plan) {
+    const std::size_t n = size(), fields = static_cast<std::size_t>(dofs * order);
+    const bool whole = gear.size() == padded(n) * fields && inverse_radius.size() == n && mass.size() == n &&
+                       inverse_mass.size() == n && material.size() == n && image_x.size() == n &&
+                       image_y.size() == n && id.size() == n && spin_factor.size() == (spin() ? n : 0);
+    if (!whole) fail(Exit::io, "checkpoint: columns of unequal length");
+    parking_ = plan.lower;
+    resize(n);
     force.fill(0.0);
     park_padding();
 }

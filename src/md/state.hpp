@@ -37,14 +37,16 @@ struct State {
     void append(const scene::GrainState& grain, const Plan& plan, double dt);
     // New storage order: position n gets the particle that stood at order[n]; shorter orders drop particles.
     void reorder(std::span<const std::uint32_t> order);
+    // After a restore: sizes the derived columns and checks that all have one length.
+    void adopt(const Plan& plan);
     // Rewrites records from the state, for the time of the state.
     void refresh_records(double dt);
 
 private:
     [[nodiscard]] std::size_t gear_index(std::size_t i, int dof, int k) const {
         const auto fields = static_cast<std::size_t>(dofs * order);
-        return i / block_width * block_width * fields + static_cast<std::size_t>(dof * order + k) * block_width +
-               i % block_width;
+        return i / block_width * block_width * fields +
+               static_cast<std::size_t>(dof * order + k) * block_width + i % block_width;
     }
     void resize(std::size_t n);
     void park_padding();

@@ -20,10 +20,14 @@ WallResult wall_forces(const Walls& walls, State& state, const double* coefficie
         const double reach = r[5] + c.radius;
         if (!c.valid || c.distance >= reach) continue;
         const WallElement& element = walls.elements()[n->element];
-        const double* k = coefficients + (state.material[i] * materials + element.material) * laws::pair_coefficients;
-        const laws::PairState<double> pair{c.distance * c.direction.x, c.distance * c.direction.y,
-                                           c.velocity.x - r[2],        c.velocity.y - r[3],
-                                           r[4] + c.spin,              reach,
+        const double* k =
+            coefficients + (state.material[i] * materials + element.material) * laws::pair_coefficients;
+        const laws::PairState<double> pair{c.distance * c.direction.x,
+                                           c.distance * c.direction.y,
+                                           c.velocity.x - r[2],
+                                           c.velocity.y - r[3],
+                                           r[4] + c.spin,
+                                           reach,
                                            r[6] + c.inverse_radius};
         const auto f = laws::pair_force<Normal, Tangential, double>(pair, {k[0], k[1], k[2], k[3]});
         double* force = state.force.data() + i * simd::force_fields;
@@ -39,7 +43,7 @@ WallResult wall_forces(const Walls& walls, State& state, const double* coefficie
 template <class Normal> WallKernel with_tangential(int tangential) {
     int position = 0;
     WallKernel kernel = nullptr;
-#define TANGENTIAL(type, choice)                                                                                       \
+#define TANGENTIAL(type, choice)                                                                             \
     if (position++ == tangential) kernel = wall_forces<Normal, laws::type>;
 #include "laws/laws.def"
     return kernel;
@@ -50,7 +54,7 @@ template <class Normal> WallKernel with_tangential(int tangential) {
 WallKernel wall_kernel(int normal, int tangential) {
     int position = 0;
     WallKernel kernel = nullptr;
-#define NORMAL(type, choice)                                                                                           \
+#define NORMAL(type, choice)                                                                                 \
     if (position++ == normal) kernel = with_tangential<laws::type>(tangential);
 #include "laws/laws.def"
     return kernel;
@@ -72,7 +76,8 @@ public:
         for (std::size_t e = 0; e < walls.elements().size(); ++e)
             for (int row = 0; row < rows_; ++row)
                 for (int column = 0; column < columns_; ++column)
-                    if (near(walls.elements()[e], lower + Vec{(column + 0.5) * dx, (row + 0.5) * dy, 0}, radius + reach))
+                    if (near(walls.elements()[e], lower + Vec{(column + 0.5) * dx, (row + 0.5) * dy, 0},
+                             radius + reach))
                         cells_[static_cast<std::size_t>(row * columns_ + column)].push_back(
                             static_cast<std::uint32_t>(e));
     }
@@ -84,18 +89,23 @@ public:
     }
 
 private:
-    // Whether the element's surface may come within `distance` of p (a superset: whole circles and lines' ends).
+    // Whether the element's surface may come within `distance` of p (a superset: whole circles and lines'
+    // ends).
     static bool near(const WallElement& e, Vec p, double distance) {
         switch (e.kind) {
-        case WallElement::Kind::plane: return dot(p - e.a, e.b) < distance;
+        case WallElement::Kind::plane:
+            return dot(p - e.a, e.b) < distance;
         case WallElement::Kind::segment: {
             const Vec along = e.b - e.a;
             const double s = std::clamp(dot(p - e.a, along) / dot(along, along), 0.0, 1.0);
             return norm(p - e.a - s * along) < distance;
         }
-        case WallElement::Kind::vertex: return norm(p - e.a) < distance;
-        case WallElement::Kind::arc: return std::abs(norm(p - e.a) - e.radius) < distance;
-        case WallElement::Kind::disc: return norm(p - e.a) < distance + e.radius;
+        case WallElement::Kind::vertex:
+            return norm(p - e.a) < distance;
+        case WallElement::Kind::arc:
+            return std::abs(norm(p - e.a) - e.radius) < distance;
+        case WallElement::Kind::disc:
+            return norm(p - e.a) < distance + e.radius;
         }
         return true;
     }
@@ -106,18 +116,23 @@ private:
     std::vector<std::vector<std::uint32_t>> cells_;
 };
 
-// Distance to the surface, without the rules that say whose contact it is: those may change while the list is valid.
+// Distance to the surface, without the rules that say whose contact it is: those may change while the list is
+// valid.
 double surface_distance(const WallElement& e, Vec p) {
     switch (e.kind) {
-    case WallElement::Kind::plane: return dot(p - e.a, e.b);
+    case WallElement::Kind::plane:
+        return dot(p - e.a, e.b);
     case WallElement::Kind::segment: {
         const Vec along = e.b - e.a;
         const double s = std::clamp(dot(p - e.a, along) / dot(along, along), 0.0, 1.0);
         return norm(p - e.a - s * along);
     }
-    case WallElement::Kind::vertex: return norm(p - e.a);
-    case WallElement::Kind::arc: return std::abs(norm(p - e.a) - e.radius);
-    case WallElement::Kind::disc: return norm(p - e.a) - e.radius;
+    case WallElement::Kind::vertex:
+        return norm(p - e.a);
+    case WallElement::Kind::arc:
+        return std::abs(norm(p - e.a) - e.radius);
+    case WallElement::Kind::disc:
+        return norm(p - e.a) - e.radius;
     }
     return 0;
 }
@@ -139,8 +154,8 @@ void Walls::rebuild(const State& state) {
     budget_ = 0.8 * skin_; // the rest covers what the speed bound of a step misses
 }
 
-WallResult Walls::add_forces(State& state, const std::vector<double>& coefficients, int materials, int threads,
-                             bool list) {
+WallResult Walls::add_forces(State& state, const std::vector<double>& coefficients, int materials,
+                             int threads, bool list) {
     std::vector<WallResult> results(state.tiles());
     if (list && budget_ < 0) rebuild(state);
     for_tiles(state.tiles(), threads, [&](std::size_t tile) {
@@ -153,7 +168,8 @@ WallResult Walls::add_forces(State& state, const std::vector<double>& coefficien
         for (std::size_t i = tile * tile_size; i < std::min(state.size(), (tile + 1) * tile_size); ++i)
             for (std::size_t e = 0; e < elements_.size(); ++e) {
                 const NearWall pair{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(e)};
-                const WallResult one = kernel_(*this, state, coefficients.data(), materials, &pair, &pair + 1);
+                const WallResult one =
+                    kernel_(*this, state, coefficients.data(), materials, &pair, &pair + 1);
                 if (one.largest_ratio > results[tile].largest_ratio) results[tile] = one;
             }
     });

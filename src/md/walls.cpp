@@ -80,11 +80,13 @@ WallContact disc_contact(const WallElement& e, Vec p) {
 
 } // namespace
 
-// ---- construction ------------------------------------------------------------------------------------------------
+// ---- construction
+// ------------------------------------------------------------------------------------------------
 
 Walls::Walls(const scene::Scene& scene, const Plan& plan, const Needs& needs)
-    : motions_(scene.motions), rigid_(scene.motions.size()), kernel_(wall_kernel(plan.normal, plan.tangential)),
-      lower_(plan.lower), upper_(plan.upper), skin_(0.5 * needs.radius_min), radius_max_(needs.radius_max) {
+    : motions_(scene.motions), rigid_(scene.motions.size()),
+      kernel_(wall_kernel(plan.normal, plan.tangential)), lower_(plan.lower), upper_(plan.upper),
+      skin_(0.5 * needs.radius_min), radius_max_(needs.radius_max) {
     for (std::size_t w = 0; w < scene.walls.size(); ++w) add_wall(scene, w);
     elements_ = reference_;
     for (const WallElement& e : reference_) {
@@ -109,7 +111,9 @@ void Walls::add_wall(const scene::Scene& scene, std::size_t index) {
         reference_.push_back(e);
         break;
     case scene::WallKind::segment:
-    case scene::WallKind::polyline: add_chain(wall.points, wall.closed, e); break;
+    case scene::WallKind::polyline:
+        add_chain(wall.points, wall.closed, e);
+        break;
     case scene::WallKind::arc: {
         e.kind = WallElement::Kind::arc;
         e.a = wall.centre;
@@ -119,7 +123,9 @@ void Walls::add_wall(const scene::Scene& scene, std::size_t index) {
         reference_.push_back(e);
         break;
     }
-    case scene::WallKind::grains: add_row(wall, e); break;
+    case scene::WallKind::grains:
+        add_row(wall, e);
+        break;
     }
 }
 
@@ -156,7 +162,8 @@ void Walls::add_row(const scene::Wall& wall, WallElement prototype) {
     if (wall.ring_radius > 0) {
         const double span = wall.angle_to - wall.angle_from;
         const bool full = span >= two_pi * (1 - 1e-12);
-        const auto n = static_cast<int>(std::floor(span * wall.ring_radius / spacing + 1e-9)) + (full ? 0 : 1);
+        const auto n =
+            static_cast<int>(std::floor(span * wall.ring_radius / spacing + 1e-9)) + (full ? 0 : 1);
         for (int k = 0; k < n; ++k) {
             const double angle = wall.angle_from + span * k / std::max(1, full ? n : n - 1);
             put(wall.centre + wall.ring_radius * Vec{std::cos(angle), std::sin(angle), 0}, wall.radius);
@@ -168,7 +175,8 @@ void Walls::add_row(const scene::Wall& wall, WallElement prototype) {
     for (int k = 0; k <= n; ++k) put(n == 0 ? from : from + (spacing * k / norm(along)) * along, wall.radius);
 }
 
-// ---- motion and geometry ------------------------------------------------------------------------------------------
+// ---- motion and geometry
+// ------------------------------------------------------------------------------------------
 
 void Walls::move_to(double time) {
     if (motions_.empty()) return;
@@ -189,17 +197,28 @@ WallContact Walls::contact(std::size_t element, Vec p) const {
     const WallElement& e = elements_[element];
     WallContact c;
     switch (e.kind) {
-    case WallElement::Kind::plane: c = plane_contact(e, p); break;
-    case WallElement::Kind::segment: c = segment_contact(e, p); break;
-    case WallElement::Kind::vertex: c = vertex_contact(e, p); break;
-    case WallElement::Kind::arc: c = arc_contact(e, p); break;
-    case WallElement::Kind::disc: c = disc_contact(e, p); break;
+    case WallElement::Kind::plane:
+        c = plane_contact(e, p);
+        break;
+    case WallElement::Kind::segment:
+        c = segment_contact(e, p);
+        break;
+    case WallElement::Kind::vertex:
+        c = vertex_contact(e, p);
+        break;
+    case WallElement::Kind::arc:
+        c = arc_contact(e, p);
+        break;
+    case WallElement::Kind::disc:
+        c = disc_contact(e, p);
+        break;
     }
     if (!c.valid) return c;
     double omega = e.omega;
     if (e.motion >= 0) {
         const motion::RigidState& rigid = rigid_[static_cast<std::size_t>(e.motion)];
-        c.velocity = rigid.velocity_at(e.kind == WallElement::Kind::disc ? e.a : p + c.distance * c.direction);
+        c.velocity =
+            rigid.velocity_at(e.kind == WallElement::Kind::disc ? e.a : p + c.distance * c.direction);
         omega += rigid.omega;
     }
     if (e.kind == WallElement::Kind::disc) c.spin = e.radius * omega;
@@ -220,21 +239,28 @@ std::vector<analysis::WallShape> Walls::shapes(double time) const {
         shape.radius = e.radius;
         shape.angle_from = e.angle_from;
         shape.angle_to = e.angle_from + e.angle_span;
-        const motion::RigidState* rigid = e.motion < 0 ? nullptr : &now.rigid_[static_cast<std::size_t>(e.motion)];
+        const motion::RigidState* rigid =
+            e.motion < 0 ? nullptr : &now.rigid_[static_cast<std::size_t>(e.motion)];
         shape.omega = e.omega + (rigid != nullptr ? rigid->omega : 0.0);
         shape.angle = rigid != nullptr ? rigid->angle : 0.0;
         if (rigid != nullptr) shape.velocity = rigid->velocity_at(e.a);
         switch (e.kind) {
-        case WallElement::Kind::vertex: continue;
+        case WallElement::Kind::vertex:
+            continue;
         case WallElement::Kind::plane: {
             const Vec along = norm(upper_ - lower_) * Vec{-e.b.y, e.b.x, 0};
             shape.a = e.a - along;
             shape.b = e.a + along;
             break;
         }
-        case WallElement::Kind::segment: break;
-        case WallElement::Kind::arc: shape.kind = analysis::WallShape::Kind::arc; break;
-        case WallElement::Kind::disc: shape.kind = analysis::WallShape::Kind::disc; break;
+        case WallElement::Kind::segment:
+            break;
+        case WallElement::Kind::arc:
+            shape.kind = analysis::WallShape::Kind::arc;
+            break;
+        case WallElement::Kind::disc:
+            shape.kind = analysis::WallShape::Kind::disc;
+            break;
         }
         result.push_back(shape);
     }

@@ -1,5 +1,5 @@
-// Walls: analytic elements and prescribed wall grains (md-spheres 1.10-1.13). Contacts use the same formula text as
-// pairs. A list of near (grain, element) pairs is kept while nothing can have closed the skin.
+// Walls: analytic elements and prescribed wall grains (md-spheres 1.10-1.13). Contacts use the same formula
+// text as pairs. A list of near (grain, element) pairs is kept while nothing can have closed the skin.
 #pragma once
 
 #include "analysis/snapshot.hpp"
@@ -17,22 +17,22 @@ namespace sandlane::md {
 struct WallElement {
     enum class Kind { plane, segment, vertex, arc, disc };
     Kind kind = Kind::segment;
-    Vec a, b;                 // plane: point, normal; segment: ends; vertex, disc: a; arc: a = centre
-    double radius = 0;        // arc, disc
+    Vec a, b;          // plane: point, normal; segment: ends; vertex, disc: a; arc: a = centre
+    double radius = 0; // arc, disc
     double angle_from = 0, angle_span = 0; // arc, counter-clockwise
-    // Vertex: directions of the segments that end here, pointing away from the vertex; a contact in the interior of
-    // one of them belongs to that segment.
+    // Vertex: directions of the segments that end here, pointing away from the vertex; a contact in the
+    // interior of one of them belongs to that segment.
     Vec along[2];
     int neighbours = 0;
-    double omega = 0;         // disc: own spin in addition to the motion
+    double omega = 0; // disc: own spin in addition to the motion
     int wall = 0, material = 0, motion = -1;
 };
 
 // Closest point of an element to a grain.
 struct WallContact {
-    double distance = 0;  // from the grain's centre to the surface (disc: to its centre)
-    Vec direction;        // unit vector from the grain to the element
-    Vec velocity;         // of the wall at the contact (disc: of its centre)
+    double distance = 0; // from the grain's centre to the surface (disc: to its centre)
+    Vec direction;       // unit vector from the grain to the element
+    Vec velocity;        // of the wall at the contact (disc: of its centre)
     double radius = 0, spin = 0, inverse_radius = 0; // disc: R_j, R_j omega_j, 1/R_j
     bool valid = false;
 };
@@ -50,8 +50,8 @@ struct NearWall {
 
 class Walls;
 // Adds the forces of a range of candidates; compiled per law (wall_forces.cpp).
-using WallKernel = WallResult (*)(const Walls&, State&, const double* coefficients, int materials, const NearWall* begin,
-                                  const NearWall* end);
+using WallKernel = WallResult (*)(const Walls&, State&, const double* coefficients, int materials,
+                                  const NearWall* begin, const NearWall* end);
 [[nodiscard]] WallKernel wall_kernel(int normal, int tangential);
 
 class Walls {
@@ -70,7 +70,8 @@ public:
     void invalidate() { budget_ = -1; }
     [[nodiscard]] double fastest() const { return fastest_; }
     // Adds wall forces of all grains; `list` = false looks at every element of every grain (reference).
-    WallResult add_forces(State& state, const std::vector<double>& coefficients, int materials, int threads, bool list);
+    WallResult add_forces(State& state, const std::vector<double>& coefficients, int materials, int threads,
+                          bool list);
     [[nodiscard]] std::size_t list_size() const { return near_.size(); }
 
     [[nodiscard]] std::vector<analysis::WallShape> shapes(double time) const;

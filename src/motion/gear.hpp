@@ -22,7 +22,8 @@ template <int order, class R> inline void gear_predict(R (&x)[order]) {
 }
 
 // X <- X + c (dt^2/2 a - X_2); `half_dt2` = dt^2/2 [s^2], a [m/s^2 or rad/s^2].
-template <int order, class R> inline void gear_correct(R (&x)[order], const R& acceleration, const R& half_dt2) {
+template <int order, class R>
+inline void gear_correct(R (&x)[order], const R& acceleration, const R& half_dt2) {
     const R difference = half_dt2 * acceleration - x[2];
     for (int k = 0; k < order; ++k) x[k] = x[k] + R(Gear<order>::c[k]) * difference;
 }

@@ -37,25 +37,37 @@ RigidState rigid_state(const scene::Motion& m, double time) {
     RigidState state;
     state.pivot = m.centre;
     switch (m.kind) {
-    case scene::MotionKind::fixed: break;
+    case scene::MotionKind::fixed:
+        break;
     case scene::MotionKind::linear:
         state.shift = (time - m.start) * m.velocity;
         state.shift_velocity = m.velocity;
         break;
-    case scene::MotionKind::oscillate: oscillate(state, m, time); break;
-    case scene::MotionKind::rotate: turn(state, m.omega * (time - m.start), m.omega); break;
-    case scene::MotionKind::planetary: planetary(state, m, time); break;
+    case scene::MotionKind::oscillate:
+        oscillate(state, m, time);
+        break;
+    case scene::MotionKind::rotate:
+        turn(state, m.omega * (time - m.start), m.omega);
+        break;
+    case scene::MotionKind::planetary:
+        planetary(state, m, time);
+        break;
     }
     return state;
 }
 
 double largest_speed(const scene::Motion& m, double reach) {
     switch (m.kind) {
-    case scene::MotionKind::fixed: return 0;
-    case scene::MotionKind::linear: return norm(m.velocity);
-    case scene::MotionKind::oscillate: return std::abs(m.omega) * norm(m.amplitude);
-    case scene::MotionKind::rotate: return std::abs(m.omega) * reach;
-    case scene::MotionKind::planetary: return std::abs(m.orbit_omega) * m.orbit_radius + std::abs(m.omega) * reach;
+    case scene::MotionKind::fixed:
+        return 0;
+    case scene::MotionKind::linear:
+        return norm(m.velocity);
+    case scene::MotionKind::oscillate:
+        return std::abs(m.omega) * norm(m.amplitude);
+    case scene::MotionKind::rotate:
+        return std::abs(m.omega) * reach;
+    case scene::MotionKind::planetary:
+        return std::abs(m.orbit_omega) * m.orbit_radius + std::abs(m.omega) * reach;
     }
     return 0;
 }

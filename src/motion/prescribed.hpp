@@ -1,4 +1,5 @@
-// Prescribed rigid motions of walls as functions of absolute time (md-spheres 1.12, 1.13), velocity = exact derivative.
+// Prescribed rigid motions of walls as functions of absolute time (md-spheres 1.12, 1.13), velocity = exact
+// derivative.
 #pragma once
 
 #include "core/vec.hpp"
@@ -8,8 +9,8 @@ namespace sandlane::motion {
 
 // Position and velocity of a material point of the wall at time t, and its rotation since the reference time.
 struct RigidState {
-    Vec pivot;             // reference point that the rotation turns about, in the given positions
-    Vec shift;             // displacement of the pivot
+    Vec pivot; // reference point that the rotation turns about, in the given positions
+    Vec shift; // displacement of the pivot
     Vec shift_velocity;
     double cosine = 1, sine = 0; // rotation angle since the reference time
     double angle = 0, omega = 0;
@@ -30,7 +31,8 @@ struct RigidState {
 
 [[nodiscard]] RigidState rigid_state(const scene::Motion& motion, double time);
 
-// Largest speed over all times of a point within `reach` of the pivot, m/s (for candidate lists and step checks).
+// Largest speed over all times of a point within `reach` of the pivot, m/s (for candidate lists and step
+// checks).
 [[nodiscard]] double largest_speed(const scene::Motion& motion, double reach);
 
 } // namespace sandlane::motion

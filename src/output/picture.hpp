@@ -10,11 +10,12 @@ namespace sandlane::output {
 
 struct PictureStyle {
     scene::Colour colour = scene::Colour::speed;
-    int width = 800;       // pixels; the height follows from the domain
-    double scale_max = 0;  // upper end of the colour scale; 0: largest value of the snapshot, rounded up
+    int width = 800;      // pixels; the height follows from the domain
+    double scale_max = 0; // upper end of the colour scale; 0: largest value of the snapshot, rounded up
 };
 
-void write_picture(const std::filesystem::path& path, const analysis::Snapshot& snapshot, const PictureStyle& style);
+void write_picture(const std::filesystem::path& path, const analysis::Snapshot& snapshot,
+                   const PictureStyle& style);
 
 // Joins pictures/*.png to movie.mp4 when ffmpeg is installed; otherwise returns the command a user can type.
 // Returns an empty string on success.

@@ -11,10 +11,10 @@ namespace sandlane::scene {
 
 struct GrainState {
     std::int64_t id = 0;
-    Vec position, velocity;      // z: unused in 2D
+    Vec position, velocity; // z: unused in 2D
     double angle = 0, omega = 0;
-    double radius = 0, mass = 0; // m, kg
-    int material = 0;            // index into Scene::materials
+    double radius = 0, mass = 0;                                 // m, kg
+    int material = 0;                                            // index into Scene::materials
     double insert_at = -std::numeric_limits<double>::infinity(); // pour: time of insertion, s
 };
 

@@ -15,7 +15,8 @@ using Overrides = std::vector<std::string>;
 
 // Throws Error(invalid_input) with "file:line: key: ..." for the first problem found.
 [[nodiscard]] Scene read_scene(const std::filesystem::path& path, const Overrides& overrides = {});
-[[nodiscard]] Scene parse_scene(std::string_view text, const std::string& name, const Overrides& overrides = {});
+[[nodiscard]] Scene parse_scene(std::string_view text, const std::string& name,
+                                const Overrides& overrides = {});
 
 // The effective scene with every key written out; parse_scene(write_scene(s)) gives s again.
 [[nodiscard]] std::string write_scene(const Scene& scene);

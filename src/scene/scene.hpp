@@ -1,5 +1,6 @@
-// The scene: what a TOML file says, as plain validated structs. Lengths in m, masses in kg, times in s, angles in rad.
-// schema.cpp declares every key once (type, unit, default, range, documentation) by pointing at these members.
+// The scene: what a TOML file says, as plain validated structs. Lengths in m, masses in kg, times in s,
+// angles in rad. schema.cpp declares every key once (type, unit, default, range, documentation) by pointing
+// at these members.
 #pragma once
 
 #include "core/vec.hpp"
@@ -15,9 +16,9 @@ enum class NormalLaw { linear_dashpot, viscoelastic };
 enum class TangentialLaw { none, haff_werner };
 enum class Integrator { gear4, gear5, gear6 };
 enum class NeighbourMethod { automatic, brute_force, link_cells, lattice, lattice_half };
-enum class Inertia { disc, sphere };          // J = m R^2/2 or 2/5 m R^2 (md-spheres 1.4)
-enum class Body { sphere, disc };             // mass of a grain: 4/3 pi R^3 rho, or pi R^2 rho (per metre of depth)
-enum class Outside { error, remove };         // what happens to a grain that leaves an open side of the domain
+enum class Inertia { disc, sphere };  // J = m R^2/2 or 2/5 m R^2 (md-spheres 1.4)
+enum class Body { sphere, disc };     // mass of a grain: 4/3 pi R^3 rho, or pi R^2 rho (per metre of depth)
+enum class Outside { error, remove }; // what happens to a grain that leaves an open side of the domain
 enum class GrainKind { lattice, random, pour, list, file };
 enum class SizeLaw { constant, uniform, inverse_square, lognormal };
 enum class WallKind { plane, segment, polyline, arc, grains };
@@ -36,13 +37,13 @@ struct Domain {
 // One material; a law reads only its own coefficients. Mixing rules: md-spheres 2.5.
 struct Material {
     std::string name;
-    double density = 2500;       // kg/m^3 (body = "disc": kg/m^3 times one metre of depth)
-    double stiffness = 0;        // k, N/m: linear dashpot
-    double damping = 0;          // gamma, kg/s: linear dashpot
-    double young = 0;            // Y, Pa: viscoelastic
-    double poisson = 0.3;        // nu
-    double dissipation = 0;      // A, s: viscoelastic
-    double friction = 0;         // mu
+    double density = 2500;         // kg/m^3 (body = "disc": kg/m^3 times one metre of depth)
+    double stiffness = 0;          // k, N/m: linear dashpot
+    double damping = 0;            // gamma, kg/s: linear dashpot
+    double young = 0;              // Y, Pa: viscoelastic
+    double poisson = 0.3;          // nu
+    double dissipation = 0;        // A, s: viscoelastic
+    double friction = 0;           // mu
     double tangential_damping = 0; // gamma_t, kg/s: Haff-Werner
 };
 
@@ -50,12 +51,13 @@ struct Material {
 struct MaterialPair {
     std::string first, second;
     double stiffness = -1, damping = -1;
-    double young = -1, dissipation = -1; // young: Y/(1-nu^2) of the pair, so that K = (4/3) sqrt(R_eff) * young / 2
+    double young = -1,
+           dissipation = -1; // young: Y/(1-nu^2) of the pair, so that K = (4/3) sqrt(R_eff) * young / 2
     double friction = -1, tangential_damping = -1;
 };
 
-// R from one uniform number per grain: constant = radius_min; uniform in [min, max]; inverse_square: pdf ~ 1/R^2
-// (md-spheres S1); lognormal with median sqrt(min max), cut at min and max (two standard deviations).
+// R from one uniform number per grain: constant = radius_min; uniform in [min, max]; inverse_square: pdf ~
+// 1/R^2 (md-spheres S1); lognormal with median sqrt(min max), cut at min and max (two standard deviations).
 struct Sizes {
     SizeLaw law = SizeLaw::constant;
     double min = 0, max = 0;
@@ -70,23 +72,23 @@ struct GrainItem {
 // A population of free grains.
 struct Grains {
     std::string name;
-    std::string material;        // empty: the only material
+    std::string material; // empty: the only material
     GrainKind kind = GrainKind::lattice;
     Sizes sizes;
-    Vec lower, upper;            // region of centres (lattice: lower is the first centre); default: the domain
+    Vec lower, upper; // region of centres (lattice: lower is the first centre); default: the domain
     std::vector<std::int64_t> counts{0, 0}; // lattice: columns, rows
-    Vec spacing;                 // lattice: distance of neighbouring centres
-    bool triangular = false;     // lattice: every second row is shifted by half a column
-    double jitter = 0;           // lattice: uniform displacement in units of the spacing
-    std::int64_t count = 0;      // random, pour: number of grains
-    double packing_fraction = 0; // random: used when count = 0
-    double start = 0;            // pour: first insertion, s
-    double rate = 0;             // pour: grains per second
-    Vec velocity;                // common initial velocity
-    double thermal_speed = 0;    // standard deviation of each velocity component
-    double omega = 0;            // initial spin, rad/s
-    double density = 0;          // > 0 overrides the material's density
-    std::string file;            // file: CSV, or the book's 25-column format
+    Vec spacing;                            // lattice: distance of neighbouring centres
+    bool triangular = false;                // lattice: every second row is shifted by half a column
+    double jitter = 0;                      // lattice: uniform displacement in units of the spacing
+    std::int64_t count = 0;                 // random, pour: number of grains
+    double packing_fraction = 0;            // random: used when count = 0
+    double start = 0;                       // pour: first insertion, s
+    double rate = 0;                        // pour: grains per second
+    Vec velocity;                           // common initial velocity
+    double thermal_speed = 0;               // standard deviation of each velocity component
+    double omega = 0;                       // initial spin, rad/s
+    double density = 0;                     // > 0 overrides the material's density
+    std::string file;                       // file: CSV, or the book's 25-column format
     std::vector<GrainItem> items;
 };
 
@@ -96,30 +98,32 @@ struct Wall {
     std::string material;
     std::string motion; // name of a [[motions]] entry; empty: fixed
     WallKind kind = WallKind::segment;
-    std::vector<Vec> points;     // plane: one point; segment: two; polyline: two or more; grains: end points of the row
-    bool closed = false;         // polyline: joins the last point to the first
-    Vec normal;                  // plane: points into the free side
-    Vec centre;                  // arc, and grains on an arc
-    double radius = 0;           // arc radius; grains: radius of the wall grains
-    double ring_radius = 0;      // grains: > 0 puts them on a circle around centre
+    std::vector<Vec>
+        points; // plane: one point; segment: two; polyline: two or more; grains: end points of the row
+    bool closed = false;                                 // polyline: joins the last point to the first
+    Vec normal;                                          // plane: points into the free side
+    Vec centre;                                          // arc, and grains on an arc
+    double radius = 0;                                   // arc radius; grains: radius of the wall grains
+    double ring_radius = 0;                              // grains: > 0 puts them on a circle around centre
     double angle_from = 0, angle_to = 6.283185307179586; // arc and ring, counter-clockwise
-    double spacing = 0;          // grains: distance of centres (0: 2 R)
+    double spacing = 0;                                  // grains: distance of centres (0: 2 R)
     std::vector<GrainItem> items; // grains: explicit wall grains instead of a row or ring
-    double omega = 0;            // grains: surface spin of each wall grain in addition to the motion
+    double omega = 0;             // grains: surface spin of each wall grain in addition to the motion
 };
 
-// Named prescribed motion of walls, a rigid transformation that is a function of absolute time (md-spheres 1.12, 1.13).
+// Named prescribed motion of walls, a rigid transformation that is a function of absolute time
+// (md-spheres 1.12, 1.13).
 struct Motion {
     std::string name;
     MotionKind kind = MotionKind::fixed;
-    Vec velocity;                // linear
-    Vec amplitude;               // oscillate: displacement = amplitude * wave(omega t + phase)
-    double omega = 0;            // oscillate, rotate: rad/s; planetary: spin of the drum
+    Vec velocity;     // linear
+    Vec amplitude;    // oscillate: displacement = amplitude * wave(omega t + phase)
+    double omega = 0; // oscillate, rotate: rad/s; planetary: spin of the drum
     double phase = 0;
     Wave wave = Wave::sine;
-    Vec centre;                  // rotate, planetary: pivot at t = 0
+    Vec centre;                               // rotate, planetary: pivot at t = 0
     double orbit_radius = 0, orbit_omega = 0; // planetary
-    double start = 0;            // reference time t_0 of the given positions, s
+    double start = 0;                         // reference time t_0 of the given positions, s
 };
 
 struct Md {
@@ -127,10 +131,10 @@ struct Md {
     TangentialLaw tangential = TangentialLaw::haff_werner;
     Integrator integrator = Integrator::gear5;
     NeighbourMethod neighbours = NeighbourMethod::automatic;
-    double dt = 0;               // 0: t_c/50 at max_speed
+    double dt = 0; // 0: t_c/50 at max_speed
     double duration = 0;
-    double max_speed = 1;        // m/s: expected largest impact speed, for t_c of the viscoelastic law
-    double delta = 0.1;          // lattice: largest overlap in units of the smaller radius
+    double max_speed = 1; // m/s: expected largest impact speed, for t_c of the viscoelastic law
+    double delta = 0.1;   // lattice: largest overlap in units of the smaller radius
     Inertia inertia = Inertia::disc;
     Body body = Body::sphere;
 };

@@ -18,15 +18,16 @@ struct Case {
 std::vector<Case> all_cases() {
     std::vector<Case> cases;
     for (const simd::Isa isa : simd::available_isas())
-        for (const auto method : {NeighbourMethod::brute_force, NeighbourMethod::link_cells, NeighbourMethod::lattice,
-                                  NeighbourMethod::lattice_half})
+        for (const auto method : {NeighbourMethod::brute_force, NeighbourMethod::link_cells,
+                                  NeighbourMethod::lattice, NeighbourMethod::lattice_half})
             cases.push_back({isa, method});
     return cases;
 }
 
 std::string case_name(const testing::TestParamInfo<Case>& info) {
     static const char* methods[] = {"auto", "brute", "cells", "lattice", "lattice_half"};
-    std::string name = std::string(simd::isa_name(info.param.isa)) + "_" + methods[static_cast<int>(info.param.method)];
+    std::string name =
+        std::string(simd::isa_name(info.param.isa)) + "_" + methods[static_cast<int>(info.param.method)];
     for (char& c : name)
         if (c == '.') c = '_';
     return name;
@@ -103,14 +104,15 @@ TEST(Determinism, IsaAndThreads) {
                     std::string reference;
                     for (const simd::Isa isa : simd::available_isas())
                         for (const int threads : {1, 2, 3, 7}) {
-                            // Seven threads on few cores wait for each other a lot: one instruction set shows it.
+                            // Seven threads on few cores wait for each other a lot: one instruction set shows
+                            // it.
                             if (threads > 2 && isa != simd::available_isas().back()) continue;
                             md::Simulation sim = test::make_simulation(s, grains, isa, threads);
                             sim.run(300);
                             const std::string hash = sim.state_hash().hex();
                             if (reference.empty()) reference = hash;
-                            EXPECT_EQ(hash, reference)
-                                << simd::isa_name(isa) << " threads " << threads << " method " << static_cast<int>(method);
+                            EXPECT_EQ(hash, reference) << simd::isa_name(isa) << " threads " << threads
+                                                       << " method " << static_cast<int>(method);
                         }
                 }
 }

@@ -29,7 +29,8 @@ inline scene::Scene lattice_scene(int columns = 8, int rows = 8) {
     return s;
 }
 
-inline std::vector<scene::GrainState> lattice_grains(int columns = 8, int rows = 8, bool equal_radii = false) {
+inline std::vector<scene::GrainState> lattice_grains(int columns = 8, int rows = 8,
+                                                     bool equal_radii = false) {
     std::vector<scene::GrainState> grains;
     const double a = 2.02;
     const scene::Scene s = lattice_scene(columns, rows);
@@ -52,10 +53,10 @@ inline std::vector<scene::GrainState> lattice_grains(int columns = 8, int rows =
     return grains;
 }
 
-inline md::Simulation make_simulation(const scene::Scene& s, const std::vector<scene::GrainState>& grains, simd::Isa isa,
-                                      int threads = 1) {
+inline md::Simulation make_simulation(const scene::Scene& s, const std::vector<scene::GrainState>& grains,
+                                      simd::Isa isa, int threads = 1) {
     const md::Needs needs = md::analyse(s, grains);
-    return {s, grains, needs, md::make_plan(s, needs, md::derive(s, needs), isa, threads)};
+    return {s, grains, needs, md::make_plan(s, needs, md::derive(s, needs), isa, {threads, "test"})};
 }
 
 } // namespace sandlane::test

@@ -1,0 +1,58 @@
+// Everything that a run leaves in its folder: log, trajectories, pictures, checkpoints, effective scene,
+// report.
+#pragma once
+
+#include "md/simulation.hpp"
+#include "output/checkpoint.hpp"
+#include "output/folder.hpp"
+#include "output/log.hpp"
+#include "output/report.hpp"
+#include "output/writers.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sandlane::app {
+
+class RunOutputs {
+public:
+    // resume: continue the files of the folder where the checkpoint says; null: a fresh folder.
+    RunOutputs(const std::filesystem::path& folder, const md::Simulation& simulation, std::string plan_text,
+               const output::Checkpoint* resume);
+
+    // Next step after `step` at which something is due.
+    [[nodiscard]] std::int64_t next_due(std::int64_t step) const;
+    // Writes what is due at the present step; all = true writes every kind (start of a run).
+    void write_due(const md::Simulation& simulation, bool all);
+    // Last outputs, checkpoint, report, movie. Returns the path of the checkpoint.
+    std::string finish(const md::Simulation& simulation, bool stopped, const std::string& summary,
+                       double rate);
+    void warn_into(std::FILE* stream) { warnings_ = stream; }
+
+private:
+    void write_log(const md::Simulation& simulation);
+    void write_picture(const analysis::Snapshot& snapshot);
+    std::string write_checkpoint(const md::Simulation& simulation);
+    void warn(const std::string& text);
+
+    scene::Scene scene_;
+    output::RunFolder folder_;
+    std::string plan_text_;
+    std::unique_ptr<output::LogWriter> log_;
+    analysis::Log history_;
+    std::vector<std::pair<std::string, std::unique_ptr<output::TrajectoryWriter>>> trajectories_;
+    output::ReplayRecorder replay_;
+    std::int64_t log_steps_, picture_steps_, trajectory_steps_, checkpoint_steps_, replay_steps_;
+    std::int64_t pictures_ = 0;
+    double colour_max_ = 0;
+    bool overlap_warned_ = false;
+    std::size_t events_seen_ = 0;
+    std::vector<std::filesystem::path> checkpoints_;
+    std::FILE* warnings_ = nullptr;
+};
+
+} // namespace sandlane::app

@@ -1,0 +1,49 @@
+#include "core/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include <unistd.h>
+
+namespace sandlane {
+
+std::string clock_text(double seconds) {
+    const auto whole = static_cast<std::int64_t>(seconds + 0.5);
+    const std::int64_t hours = whole / 3600, minutes = whole / 60 % 60, rest = whole % 60;
+    return hours > 0 ? fmt::format("{}:{:02}:{:02}", hours, minutes, rest)
+                     : fmt::format("{}:{:02}", minutes, rest);
+}
+
+Progress::Progress(std::int64_t first, std::int64_t total, bool quiet)
+    : first_(first), total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0),
+      interval_(terminal_ ? 0.25 : 30.0), next_(interval_), last_step_(first) {}
+
+Progress::~Progress() {
+    if (printed_ && terminal_) std::fputs("\n", stderr);
+}
+
+void Progress::update(std::int64_t step, double time, std::size_t particles) {
+    work_ += static_cast<double>(step - last_step_) * static_cast<double>(particles);
+    last_step_ = step;
+    if (quiet_ || clock_.seconds() < next_) return;
+    next_ = clock_.seconds() + interval_;
+    print(step, time);
+}
+
+void Progress::print(std::int64_t step, double time) {
+    printed_ = true;
+    const double spent = clock_.seconds();
+    const double done = static_cast<double>(step - first_) / static_cast<double>(total_ - first_);
+    const std::string text =
+        fmt::format("{:3.0f}% step {:.3g}/{:.3g} t={:.4g} s {:.2g} particle-steps/s ETA {}", 100 * done,
+                    static_cast<double>(step), static_cast<double>(total_), time, work_ / spent,
+                    clock_text(done > 0 ? spent * (1 - done) / done : 0));
+    if (terminal_)
+        fmt::print(stderr, "\r{:<78}", text);
+    else
+        fmt::print(stderr, "{}\n", text);
+    std::fflush(stderr);
+}
+
+} // namespace sandlane

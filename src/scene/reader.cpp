@@ -1,0 +1,170 @@
+#include "scene/reader.hpp"
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "scene/fields.hpp"
+
+#include <charconv>
+
+namespace sandlane::scene {
+
+namespace {
+
+// ---- overrides
+// ----------------------------------------------------------------------------------------------------
+
+std::vector<std::string> split_path(const std::string& path) {
+    std::vector<std::string> parts(1);
+    for (const char c : path)
+        if (c == '.' || c == '[' || c == ']') {
+            if (!parts.back().empty()) parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    if (parts.back().empty()) parts.pop_back();
+    return parts;
+}
+
+void set_origin(Value& value, const std::string& origin) {
+    value.origin = origin;
+    for (Value& item : value.items) set_origin(item, origin);
+    for (auto& [name, member] : value.members) set_origin(member, origin);
+}
+
+// The right-hand side is TOML; a bare word that is not TOML is a text.
+Value override_value(const std::string& text, const std::string& origin) {
+    Value value;
+    try {
+        value = parse_toml("value = " + text + "\n", origin).members.at(0).second;
+    } catch (const Error&) {
+        value.kind = Value::Kind::text;
+        value.text = text;
+    }
+    set_origin(value, origin);
+    return value;
+}
+
+void apply_override(Value& root, const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        fail(Exit::invalid_input,
+             "--set {}: must be path=value, for example md.dt=1e-6 or materials.0.friction=0.3", text);
+    const std::string path = text.substr(0, equals), origin = "--set " + path;
+    Value* at = &root;
+    for (const std::string& part : split_path(path)) {
+        if (at->kind == Value::Kind::array) {
+            std::size_t index = 0;
+            const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+            if (error != std::errc{} || stop != part.data() + part.size() || index >= at->items.size())
+                fail(Exit::invalid_input, "{}: \"{}\" is not an entry of the list; allowed: 0 to {}", origin,
+                     part, static_cast<std::int64_t>(at->items.size()) - 1);
+            at = &at->items[index];
+            continue;
+        }
+        if (at->kind != Value::Kind::table)
+            fail(Exit::invalid_input, "{}: there is nothing below \"{}\"", origin, part);
+        if (at->find(part) == nullptr) {
+            at->members.emplace_back(part, Value{});
+            at->members.back().second.origin = origin;
+        }
+        at = at->find(part);
+    }
+    *at = override_value(text.substr(equals + 1), origin);
+}
+
+// ---- from the tree to the structs
+// -----------------------------------------------------------------------------------
+
+template <class T>
+void read_list(std::vector<T>& list, const Table<T>& table, const Value& value, const std::string& name) {
+    if (value.kind != Value::Kind::array)
+        fail_at(value, name, fmt::format("must be a list of tables: write [[{}]]", name));
+    for (std::size_t n = 0; n < value.items.size(); ++n)
+        table.read(list.emplace_back(), value.items[n], fmt::format("{}[{}]", name, n));
+}
+
+Scene scene_from(const Value& root) {
+    Scene scene;
+    Value rest = root;
+    rest.members.clear();
+    for (const auto& [key, value] : root.members) {
+        if (key == "domain")
+            domain_table().read(scene.domain, value, key);
+        else if (key == "materials")
+            read_list(scene.materials, material_table(), value, key);
+        else if (key == "pairs")
+            read_list(scene.pairs, pair_table(), value, key);
+        else if (key == "grains")
+            read_list(scene.grains, grains_table(), value, key);
+        else if (key == "walls")
+            read_list(scene.walls, wall_table(), value, key);
+        else if (key == "motions")
+            read_list(scene.motions, motion_table(), value, key);
+        else if (key == "md")
+            md_table().read(scene.md, value, key);
+        else if (key == "output")
+            output_table().read(scene.output, value, key);
+        else
+            rest.members.emplace_back(key, value);
+    }
+    std::vector<std::string> known = {"domain", "materials", "pairs", "grains",
+                                      "walls",  "motions",   "md",    "output"};
+    for (const Field<Scene>& field : scene_table().fields()) known.push_back(field.name);
+    for (const auto& [key, value] : rest.members) {
+        bool found = false;
+        for (const std::string& k : known) found = found || k == key;
+        if (!found) fail_unknown(value, key, known);
+    }
+    scene_table().read(scene, rest, "");
+    if (root.find("domain") == nullptr)
+        fail_at(root, "domain", "is missing; write [domain] with lower and upper");
+    return scene;
+}
+
+template <class T>
+void write_list(std::string& text, const char* name, const Table<T>& table, const std::vector<T>& list) {
+    for (const T& entry : list) text += fmt::format("\n[[{}]]\n{}", name, table.write(entry));
+}
+
+} // namespace
+
+Scene parse_scene(std::string_view text, const std::string& name, const Overrides& overrides) {
+    Value root = parse_toml(std::string(text), name);
+    for (const std::string& override_text : overrides) apply_override(root, override_text);
+    Scene scene = scene_from(root);
+    validate(scene, name);
+    return scene;
+}
+
+Scene read_scene(const std::filesystem::path& path, const Overrides& overrides) {
+    Scene scene = parse_scene(read_file(path), path.string(), overrides);
+    scene.folder = path.parent_path().string();
+    return scene;
+}
+
+std::string write_scene(const Scene& scene) {
+    std::string text = scene_table().write(scene);
+    text += "\n[domain]\n" + domain_table().write(scene.domain);
+    write_list(text, "materials", material_table(), scene.materials);
+    write_list(text, "pairs", pair_table(), scene.pairs);
+    write_list(text, "grains", grains_table(), scene.grains);
+    write_list(text, "walls", wall_table(), scene.walls);
+    write_list(text, "motions", motion_table(), scene.motions);
+    text += "\n[md]\n" + md_table().write(scene.md);
+    text += "\n[output]\n" + output_table().write(scene.output);
+    return text;
+}
+
+std::string scene_reference() {
+    return "# Scene reference\n\nGenerated from the schema (`sandlane --help-scene`). Numbers are SI, or "
+           "texts with a unit such as "
+           "`\"5 mm\"`.\n\n" +
+           scene_table().reference("(top level)") + domain_table().reference("[domain]") +
+           material_table().reference("[[materials]]") + pair_table().reference("[[pairs]]") +
+           grains_table().reference("[[grains]]") +
+           item_table().reference("items of [[grains]] and [[walls]]") + wall_table().reference("[[walls]]") +
+           motion_table().reference("[[motions]]") + md_table().reference("[md]") +
+           output_table().reference("[output]");
+}
+
+} // namespace sandlane::scene

@@ -1,0 +1,93 @@
+// The schema: every key of a scene, once. A key is one line in schema.cpp that points at a member of a scene
+// struct; parsing, ranges, units, the effective scene, help and the reference tables follow from it.
+#pragma once
+
+#include "scene/scene.hpp"
+#include "scene/units.hpp"
+#include "scene/value.hpp"
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sandlane::scene {
+
+struct Range {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool open = false; // low itself is excluded
+
+    [[nodiscard]] bool contains(double x) const { return (open ? x > low : x >= low) && x <= high; }
+    [[nodiscard]] std::string text() const;
+};
+
+inline constexpr Range any{};
+[[nodiscard]] constexpr Range positive() {
+    return {0, std::numeric_limits<double>::infinity(), true};
+}
+[[nodiscard]] constexpr Range not_negative() {
+    return {0, std::numeric_limits<double>::infinity(), false};
+}
+[[nodiscard]] constexpr Range between(double low, double high) {
+    return {low, high, false};
+}
+
+// One key of a table.
+template <class T> struct Field {
+    std::string name, type, unit, range, doc;
+    bool required = false;
+    std::function<void(T&, const Value&, const std::string& path)> read;
+    std::function<std::string(const T&)> write; // TOML text of the value; empty: leave out
+};
+
+// Spellings of the choices of an enum, in the order of its enumerators.
+using Choices = std::vector<std::string_view>;
+
+template <class T> class Table {
+public:
+    explicit Table(std::string doc) : doc_(std::move(doc)) {}
+
+    Table& number(std::string name, double T::*member, Unit unit, Range range, std::string doc);
+    Table& integer(std::string name, std::int64_t T::*member, Range range, std::string doc);
+    Table& flag(std::string name, bool T::*member, std::string doc);
+    Table& text(std::string name, std::string T::*member, std::string doc);
+    Table& vector(std::string name, Vec T::*member, Unit unit, std::string doc);
+    Table& vectors(std::string name, std::vector<Vec> T::*member, Unit unit, std::string doc);
+    template <class E> Table& choice(std::string name, E T::*member, const Choices& choices, std::string doc);
+    template <class E>
+    Table& choices(std::string name, std::vector<E> T::*member, const Choices& choices, std::string doc);
+    Table& custom(Field<T> field);
+    Table& required(); // the last key
+
+    void read(T& object, const Value& value, const std::string& path) const;
+    [[nodiscard]] std::string write(const T& object) const;
+    [[nodiscard]] std::string reference(const std::string& heading) const; // Markdown
+    [[nodiscard]] const std::vector<Field<T>>& fields() const { return fields_; }
+
+private:
+    std::string doc_;
+    std::vector<Field<T>> fields_;
+};
+
+const Table<Domain>& domain_table();
+const Table<Material>& material_table();
+const Table<MaterialPair>& pair_table();
+const Table<Grains>& grains_table();
+const Table<GrainItem>& item_table();
+const Table<Wall>& wall_table();
+const Table<Motion>& motion_table();
+const Table<Md>& md_table();
+const Table<Output>& output_table();
+const Table<Scene>& scene_table(); // the keys outside any table
+
+// Throws Error(invalid_input) "origin: path: message".
+[[noreturn]] void fail_at(const Value& value, const std::string& path, const std::string& message);
+[[noreturn]] void fail_unknown(const Value& value, const std::string& path,
+                               const std::vector<std::string>& known);
+
+// References between tables, geometry and coefficients that the chosen laws need (validate.cpp).
+void validate(const Scene& scene, const std::string& file);
+
+} // namespace sandlane::scene

@@ -1,0 +1,141 @@
+// What one key cannot know alone: names that refer to each other, shapes that need certain keys, coefficients
+// that the chosen laws read.
+#include "core/error.hpp"
+#include "scene/schema.hpp"
+
+#include <fmt/format.h>
+
+namespace sandlane::scene {
+
+namespace {
+
+struct Validator {
+    const Scene& scene;
+    const std::string& file;
+
+    template <class... Args>
+    [[noreturn]] void reject(fmt::format_string<Args...> format, Args&&... args) const {
+        fail(Exit::invalid_input, "{}: {}", file, fmt::format(format, std::forward<Args>(args)...));
+    }
+
+    [[nodiscard]] std::string names() const {
+        std::string all;
+        for (const Material& m : scene.materials)
+            all += fmt::format("{}\"{}\"", all.empty() ? "" : ", ", m.name);
+        return all;
+    }
+
+    void material_exists(const std::string& name, const std::string& path) const {
+        if (name.empty() && scene.materials.size() == 1) return;
+        for (const Material& m : scene.materials)
+            if (m.name == name) return;
+        if (name.empty()) reject("{}.material: is missing; there are several materials: {}", path, names());
+        reject("{}.material: \"{}\" is not a material; known: {}", path, name, names());
+    }
+
+    void check_domain() const {
+        const Vec size = scene.domain.upper - scene.domain.lower;
+        if (!(size.x > 0 && size.y > 0))
+            reject("domain: upper = [{}, {}] must lie above lower = [{}, {}] in both directions",
+                   scene.domain.upper.x, scene.domain.upper.y, scene.domain.lower.x, scene.domain.lower.y);
+    }
+
+    void check_materials() const {
+        if (scene.materials.empty()) reject("materials: at least one [[materials]] table is needed");
+        for (std::size_t n = 0; n < scene.materials.size(); ++n) {
+            const Material& m = scene.materials[n];
+            for (std::size_t other = 0; other < n; ++other)
+                if (scene.materials[other].name == m.name)
+                    reject("materials[{}].name: \"{}\" is used twice", n, m.name);
+            if (scene.md.normal == NormalLaw::linear_dashpot && !(m.stiffness > 0))
+                reject("materials[{}].stiffness: {} is out of range; md.normal = \"linear-dashpot\" needs "
+                       "more than 0 N/m",
+                       n, m.stiffness);
+            if (scene.md.normal == NormalLaw::viscoelastic && !(m.young > 0))
+                reject("materials[{}].young: {} is out of range; md.normal = \"viscoelastic\" needs more "
+                       "than 0 Pa",
+                       n, m.young);
+        }
+        for (std::size_t n = 0; n < scene.pairs.size(); ++n) {
+            material_exists(scene.pairs[n].first, fmt::format("pairs[{}]", n));
+            material_exists(scene.pairs[n].second, fmt::format("pairs[{}]", n));
+            if (scene.pairs[n].stiffness == 0 || scene.pairs[n].young == 0)
+                reject("pairs[{}]: a stiffness of 0 is no contact law; allowed: above 0, or negative for the "
+                       "mixing rule",
+                       n);
+        }
+    }
+
+    void check_grains(const Grains& g, const std::string& path) const {
+        material_exists(g.material, path);
+        const bool sized =
+            g.kind == GrainKind::lattice || g.kind == GrainKind::random || g.kind == GrainKind::pour;
+        if (sized && !(g.sizes.min > 0)) reject("{}.radius: is missing", path);
+        if (g.kind == GrainKind::lattice && (g.spacing.x <= 0 || g.spacing.y <= 0) &&
+            g.counts[0] * g.counts[1] > 1)
+            reject("{}.spacing: [{}, {}] must be above 0 in both directions", path, g.spacing.x, g.spacing.y);
+        if (g.kind == GrainKind::pour && !(g.rate > 0))
+            reject("{}.rate: {} must be above 0 grains per second", path, g.rate);
+        if (g.kind == GrainKind::file && g.file.empty()) reject("{}.file: is missing", path);
+        if (g.upper.x < g.lower.x || g.upper.y < g.lower.y)
+            if (g.kind != GrainKind::lattice) reject("{}: upper must not lie below lower", path);
+    }
+
+    void check_wall(const Wall& w, const std::string& path) const {
+        material_exists(w.material, path);
+        const auto need_points = [&](std::size_t least) {
+            if (w.points.size() < least)
+                reject("{}.points: has {} points; kind needs {}{}", path, w.points.size(), least,
+                       least > 1 ? " or more" : "");
+        };
+        switch (w.kind) {
+        case WallKind::plane:
+            need_points(1);
+            if (norm(w.normal) == 0)
+                reject("{}.normal: is missing; a plane needs the direction of its free side", path);
+            break;
+        case WallKind::segment:
+            if (w.points.size() != 2)
+                reject("{}.points: has {} points; a segment has 2", path, w.points.size());
+            break;
+        case WallKind::polyline:
+            need_points(2);
+            break;
+        case WallKind::arc:
+            if (!(w.radius > 0)) reject("{}.radius: {} must be above 0 m", path, w.radius);
+            if (!(w.angle_to > w.angle_from))
+                reject("{}.angle_to: {} must be above angle_from = {} rad", path, w.angle_to, w.angle_from);
+            break;
+        case WallKind::grains:
+            if (!w.items.empty()) break;
+            if (!(w.radius > 0)) reject("{}.radius: {} must be above 0 m", path, w.radius);
+            if (w.ring_radius == 0) need_points(1);
+            break;
+        }
+        for (std::size_t n = 1; n < w.points.size(); ++n)
+            if (w.kind != WallKind::plane && w.points[n] == w.points[n - 1])
+                reject("{}.points: points {} and {} coincide", path, n - 1, n);
+        if (w.motion.empty()) return;
+        for (const Motion& m : scene.motions)
+            if (m.name == w.motion) return;
+        reject("{}.motion: \"{}\" is not the name of a [[motions]] table", path, w.motion);
+    }
+};
+
+} // namespace
+
+void validate(const Scene& scene, const std::string& file) {
+    const Validator v{scene, file};
+    v.check_domain();
+    v.check_materials();
+    for (std::size_t n = 0; n < scene.grains.size(); ++n)
+        v.check_grains(scene.grains[n], fmt::format("grains[{}]", n));
+    for (std::size_t n = 0; n < scene.walls.size(); ++n)
+        v.check_wall(scene.walls[n], fmt::format("walls[{}]", n));
+    for (std::size_t n = 0; n < scene.motions.size(); ++n)
+        for (std::size_t other = 0; other < n; ++other)
+            if (scene.motions[other].name == scene.motions[n].name)
+                v.reject("motions[{}].name: \"{}\" is used twice", n, scene.motions[n].name);
+}
+
+} // namespace sandlane::scene
