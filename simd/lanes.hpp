@@ -4,12 +4,12 @@
 // and a portable fallback.
 #pragma once
 
+#include "core/real.hpp"
+
 #include <xsimd/xsimd.hpp>
 
 #include <cstddef>
 #include <cstdint>
-
-#define SANDLANE_INLINE inline __attribute__((always_inline))
 
 namespace sandlane::simd {
 
@@ -138,22 +138,93 @@ template <class A> SANDLANE_INLINE double largest(const Block<A>& b) {
     return r;
 }
 
+// ---- groups of sixteen floats for the distance stage of the lattice
+// ------------------------------------------------
+
+inline constexpr int group_width = 16;
+
+template <class Arch> struct Group {
+    using Batch = xsimd::batch<float, Arch>;
+    static constexpr int lanes = static_cast<int>(Batch::size);
+    static constexpr int parts = group_width / lanes;
+    Batch p[parts];
+
+    Group() = default;
+    explicit SANDLANE_INLINE Group(float value) {
+        for (int i = 0; i < parts; ++i) p[i] = Batch(value);
+    }
+    static SANDLANE_INLINE Group load(const float* from) { // unaligned
+        Group r;
+        for (int i = 0; i < parts; ++i) r.p[i] = Batch::load_unaligned(from + i * lanes);
+        return r;
+    }
+};
+#define SANDLANE_GROUP(op)                                                                                   \
+    template <class A> SANDLANE_INLINE Group<A> operator op(const Group<A>& a, const Group<A>& b) {          \
+        Group<A> r;                                                                                          \
+        for (int i = 0; i < Group<A>::parts; ++i) r.p[i] = a.p[i] op b.p[i];                                 \
+        return r;                                                                                            \
+    }
+SANDLANE_GROUP(+)
+SANDLANE_GROUP(-)
+SANDLANE_GROUP(*)
+#undef SANDLANE_GROUP
+
+template <class Arch>
+SANDLANE_INLINE unsigned less_bits(const xsimd::batch<float, Arch>& a, const xsimd::batch<float, Arch>& b) {
+    bool lanes[Group<Arch>::lanes];
+    (a < b).store_unaligned(lanes);
+    unsigned r = 0;
+    for (int i = 0; i < Group<Arch>::lanes; ++i) r |= static_cast<unsigned>(lanes[i]) << i;
+    return r;
+}
+#if defined(__AVX512F__)
+SANDLANE_INLINE unsigned less_bits(const xsimd::batch<float, xsimd::avx512bw>& a,
+                                   const xsimd::batch<float, xsimd::avx512bw>& b) {
+    return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
+}
+#elif defined(__AVX2__)
+SANDLANE_INLINE unsigned less_bits(const xsimd::batch<float, xsimd::avx2>& a,
+                                   const xsimd::batch<float, xsimd::avx2>& b) {
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ)));
+}
+#elif defined(__SSE4_2__)
+SANDLANE_INLINE unsigned less_bits(const xsimd::batch<float, xsimd::sse4_2>& a,
+                                   const xsimd::batch<float, xsimd::sse4_2>& b) {
+    return static_cast<unsigned>(_mm_movemask_ps(_mm_cmplt_ps(a, b)));
+}
+#endif
+// Bit l: a < b in lane l.
+template <class A> SANDLANE_INLINE unsigned less(const Group<A>& a, const Group<A>& b) {
+    unsigned r = 0;
+    for (int i = 0; i < Group<A>::parts; ++i) r |= less_bits(a.p[i], b.p[i]) << (i * Group<A>::lanes);
+    return r;
+}
+
 // ---- compress: packs the 32-bit integers whose bit is set to the front
-// ------------------------------------------- Reads and writes eight integers whatever the mask says; the
+// ------------------------------------------- Reads and writes whole registers whatever the mask says; the
 // caller advances by the number of bits. On the cores measured, compressing in a register and storing the
 // whole is 6 cycles where a compressing store costs 61.
 
 template <class Arch> struct Compress {
+    template <int count>
     static SANDLANE_INLINE void apply(const std::int32_t* from, unsigned mask, std::int32_t* to) {
         for (int n = 0; mask != 0; mask &= mask - 1) to[n++] = from[__builtin_ctz(mask)];
     }
 };
 #if defined(__AVX512VL__)
 template <> struct Compress<xsimd::avx512bw> {
+    template <int count>
     static SANDLANE_INLINE void apply(const std::int32_t* from, unsigned mask, std::int32_t* to) {
-        const __m256i packed = _mm256_maskz_compress_epi32(
-            static_cast<__mmask8>(mask), _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), packed);
+        if constexpr (count == 16) {
+            const __m512i packed =
+                _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), _mm512_loadu_si512(from));
+            _mm512_storeu_si512(to, packed);
+        } else {
+            const __m256i packed = _mm256_maskz_compress_epi32(
+                static_cast<__mmask8>(mask), _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), packed);
+        }
     }
 };
 #elif defined(__AVX2__)
@@ -170,11 +241,17 @@ struct CompressTable {
 };
 constexpr CompressTable compress_table; // internal linkage: no symbol of a wide instruction set escapes
 template <> struct Compress<xsimd::avx2> {
+    template <int count>
     static SANDLANE_INLINE void apply(const std::int32_t* from, unsigned mask, std::int32_t* to) {
-        const __m128i bytes = _mm_cvtsi64_si128(static_cast<long long>(compress_table.entry[mask]));
-        const __m256i packed = _mm256_permutevar8x32_epi32(
-            _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)), _mm256_cvtepu8_epi32(bytes));
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), packed);
+        for (int part = 0; part < count; part += 8) {
+            const unsigned byte = mask >> part & 0xffu;
+            const __m128i bytes = _mm_cvtsi64_si128(static_cast<long long>(compress_table.entry[byte]));
+            const __m256i packed =
+                _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from + part)),
+                                            _mm256_cvtepu8_epi32(bytes));
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), packed);
+            to += __builtin_popcount(byte);
+        }
     }
 };
 #endif

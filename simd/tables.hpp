@@ -39,18 +39,26 @@ using PairKernel = double (*)(const PairView&, const std::int32_t* i, const std:
                               std::int32_t count, Target target, double largest);
 
 // L-vectors (md-vectorised-lattice 1.2): one entry per site, row-major with a halo of `reach` sites on every
-// side. Empty sites hold x = 1e15 (item 13). Sites of the domain start at `origin`.
+// side. Positions are single precision and relative to the centre of their site (items 41, 42): the distance
+// stage finds a superset of the contacts, the pair kernels decide in double from the records, so the results
+// are those of double. Periodic images need no shift. Empty sites hold x = 1e15 (item 13) and owner -1; sites
+// of the domain start at `origin`.
 struct LatticeView {
-    const double *x, *y, *radius;
+    const float *x, *y, *radius; // radius carries the margin
     const std::int32_t* owner;
     std::ptrdiff_t row_stride, origin;
     std::int32_t columns, rows, reach;
-    const std::int32_t* offsets; // half mask: the second half of the full mask, ascending (item 14)
-    double uniform_square;       // (2 R)^2 when all radii are equal
-    std::int32_t tile_rows;      // tiles of the half mask
+    const std::int32_t* offsets;      // full mask, ascending; the half mask is its second half (item 14)
+    const float *offset_x, *offset_y; // the same in m
+    float uniform_square;             // (2 R)^2 with margin, when all radii are equal
 };
-inline constexpr double empty_site = 1e15;
-// Relative widening of the squared contact distance: candidates are a superset, pair kernels decide (xi > 0).
+inline constexpr float empty_site = 1e15F;
+// Widening of the single-precision contact distance, 2^-19 of the distance (item 42: 2^-18 of its square).
+inline constexpr double lattice_margin = 1.0 + 0x1p-19;
+// Sites that are looked at together; fixes the order of additions of the half mask.
+inline constexpr int site_group = 16;
+// Widening of the squared contact distance in double precision: candidates are a superset, pair kernels
+// decide.
 inline constexpr double candidate_margin = 1.0 + 0x1p-40;
 
 struct SweepResult {
@@ -99,11 +107,15 @@ using MotionKernel = MotionResult (*)(const MotionView&, std::int64_t begin, std
 // Site (or cell) of each particle, computed from its record; conflict free because a site holds one centre.
 struct BinView {
     const double* records;
-    std::int64_t count;
     std::int32_t* site;
-    double lower_x, lower_y, inverse_dx, inverse_dy;
+    double lower_x, lower_y, dx, dy;
     std::int32_t columns, rows;
     std::ptrdiff_t row_stride, origin;
+    // For the lattice, else null: position relative to the centre of the site [m], and whether the site has
+    // an image in the halo (closer than `reach` to an edge).
+    float *relative_x, *relative_y;
+    std::uint8_t* edge;
+    std::int32_t reach;
 };
 using BinKernel = void (*)(const BinView&, std::int64_t begin, std::int64_t end);
 

@@ -7,46 +7,57 @@
 
 namespace sandlane::simd {
 
-// Finds the contacts of the sites of one row with the mask offsets [k_begin, k_end).
+// Finds the contacts of the sites of one row with the mask offsets [k_begin, k_end). The pointers and the
+// number of pairs are local copies: through the views the compiler would have to reload them after every
+// store.
 template <class Arch, bool many_radii>
 SANDLANE_INLINE std::int64_t sweep_row(const LatticeView& lattice, const PairView& view, PairKernel kernel,
                                        Target target, std::int32_t row, int k_begin, int k_end,
                                        PairBuffer& pairs) {
-    using R = Block<Arch>;
-    const R margin(candidate_margin);
-    const R occupied_below(0.5 * empty_site);
-    const R uniform(lattice.uniform_square * candidate_margin);
+    using G = Group<Arch>;
+    static_assert(site_group == group_width);
+    const G occupied_below(0.5F * empty_site);
+    const G uniform(lattice.uniform_square);
+    const float *const xs = lattice.x, *const ys = lattice.y, *const radii = lattice.radius;
+    const float *const offset_x = lattice.offset_x, *const offset_y = lattice.offset_y;
+    const std::int32_t *const owner = lattice.owner, *const offsets = lattice.offsets;
     std::int64_t occupied = 0;
+    std::int32_t count = pairs.count;
     const std::ptrdiff_t row_start = lattice.origin + row * lattice.row_stride;
-    for (std::int32_t column = 0; column < lattice.columns; column += width) {
+    for (std::int32_t column = 0; column < lattice.columns; column += site_group) {
         const std::ptrdiff_t site = row_start + column;
-        const R x = load<Arch>(lattice.x + site);
+        const G x = G::load(xs + site);
         const std::int32_t left = lattice.columns - column;
-        const unsigned inside = left >= width ? 0xffu : (1u << left) - 1u;
-        const unsigned centres = bits(x < occupied_below) & inside;
+        const unsigned inside = left >= site_group ? 0xffffU : (1U << left) - 1U;
+        const unsigned centres = less(x, occupied_below) & inside;
         if (centres == 0) continue;
         occupied += __builtin_popcount(centres);
-        const R y = load<Arch>(lattice.y + site);
-        R radius;
-        if constexpr (many_radii) radius = load<Arch>(lattice.radius + site);
+        const G y = G::load(ys + site);
+        G radius;
+        if constexpr (many_radii) radius = G::load(radii + site);
         for (int k = k_begin; k < k_end; ++k) {
-            const std::ptrdiff_t partner = site + lattice.offsets[k];
-            const R dx = load<Arch>(lattice.x + partner) - x;
-            const R dy = load<Arch>(lattice.y + partner) - y;
-            const R square = dx * dx + dy * dy;
+            const std::ptrdiff_t partner = site + offsets[k];
+            const G dx = G::load(xs + partner) - x + G(offset_x[k]);
+            const G dy = G::load(ys + partner) - y + G(offset_y[k]);
+            const G square = dx * dx + dy * dy;
             unsigned hits;
             if constexpr (many_radii) {
-                const R sum = load<Arch>(lattice.radius + partner) + radius;
-                hits = bits(square < sum * sum * margin) & centres;
+                const G sum = G::load(radii + partner) + radius;
+                hits = less(square, sum * sum) & centres;
             } else {
-                hits = bits(square < uniform) & centres;
+                hits = less(square, uniform) & centres;
             }
-            Compress<Arch>::apply(lattice.owner + site, hits, pairs.i + pairs.count);
-            Compress<Arch>::apply(lattice.owner + partner, hits, pairs.j + pairs.count);
-            pairs.count += __builtin_popcount(hits);
-            if (pairs.count >= pair_chunk) pairs.evaluate_full(view, kernel, target);
+            Compress<Arch>::template apply<site_group>(owner + site, hits, pairs.i + count);
+            Compress<Arch>::template apply<site_group>(owner + partner, hits, pairs.j + count);
+            count += __builtin_popcount(hits);
+        }
+        if (count >= pair_chunk) {
+            pairs.count = count;
+            pairs.evaluate_full(view, kernel, target);
+            count = pairs.count;
         }
     }
+    pairs.count = count;
     return occupied;
 }
 

@@ -99,15 +99,16 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
 // Lattice site of each particle (item 26: floor, and the quotient rounded up is clamped).
 template <class Arch> void bin_sites(const BinView& view, std::int64_t begin, std::int64_t end) {
     using R = Block<Arch>;
+    const R half(0.5), inverse_dx(1.0 / view.dx), inverse_dy(1.0 / view.dy);
     for (std::int64_t first = begin; first < end; first += width) {
-        double xs[width], ys[width];
+        double xs[width], ys[width], us[width], vs[width];
         for (int l = 0; l < width; ++l) {
             xs[l] = view.records[(first + l) * record_fields];
             ys[l] = view.records[(first + l) * record_fields + 1];
         }
-        const R column =
-            min(floor((load<Arch>(xs) - R(view.lower_x)) * R(view.inverse_dx)), R(view.columns - 1));
-        const R row = min(floor((load<Arch>(ys) - R(view.lower_y)) * R(view.inverse_dy)), R(view.rows - 1));
+        const R x = load<Arch>(xs) - R(view.lower_x), y = load<Arch>(ys) - R(view.lower_y);
+        const R column = min(floor(x * inverse_dx), R(view.columns - 1));
+        const R row = min(floor(y * inverse_dy), R(view.rows - 1));
         store(xs, column);
         store(ys, row);
         const int size = end - first < width ? static_cast<int>(end - first) : width;
@@ -116,6 +117,18 @@ template <class Arch> void bin_sites(const BinView& view, std::int64_t begin, st
                 static_cast<std::int32_t>(view.origin) +
                 static_cast<std::int32_t>(ys[l]) * static_cast<std::int32_t>(view.row_stride) +
                 static_cast<std::int32_t>(xs[l]);
+        if (view.relative_x == nullptr) continue;
+        store(us, x - (column + half) * R(view.dx));
+        store(vs, y - (row + half) * R(view.dy));
+        for (int l = 0; l < size; ++l) {
+            view.relative_x[first + l] = static_cast<float>(us[l]);
+            view.relative_y[first + l] = static_cast<float>(vs[l]);
+            const auto c = static_cast<std::uint32_t>(static_cast<std::int32_t>(xs[l]) - view.reach);
+            const auto r = static_cast<std::uint32_t>(static_cast<std::int32_t>(ys[l]) - view.reach);
+            const bool interior = c < static_cast<std::uint32_t>(view.columns - 2 * view.reach) &&
+                                  r < static_cast<std::uint32_t>(view.rows - 2 * view.reach);
+            view.edge[first + l] = interior ? 0 : 1;
+        }
     }
 }
 

@@ -93,7 +93,9 @@ double pair_forces(const PairView& view, const std::int32_t* i, const std::int32
 // Pairs found by a traversal, handed to the pair kernel in whole blocks; the remainder is kept for the next
 // round.
 struct PairBuffer {
-    static constexpr int capacity = pair_chunk + 8 * width;
+    // A traversal looks at the level once per group of sites: at most 80 offsets (9x9 mask) of sixteen pairs
+    // later.
+    static constexpr int capacity = pair_chunk + 82 * site_group;
     std::int32_t i[capacity], j[capacity];
     std::int32_t count = 0;
     double largest_overlap = 0;

@@ -5,6 +5,10 @@
 
 #include <cmath>
 
+// Formula templates must vanish into the kernels that use them: a call per block would cost more than the
+// formula.
+#define SANDLANE_INLINE inline __attribute__((always_inline))
+
 namespace sandlane {
 
 using std::sqrt;

@@ -30,7 +30,7 @@ template <class R> struct PairForce {
 
 // overlap <= 0 means no contact and gives exact zeros. Coincident centres must have been excluded.
 template <class Normal, class Tangential, class R>
-inline PairForce<R> pair_force(const PairState<R>& s, const PairCoefficients<R>& c) {
+SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoefficients<R>& c) {
     const R distance = sqrt(s.dx * s.dx + s.dy * s.dy);
     const R overlap = s.radius_sum - distance;
     const R nx = s.dx / distance, ny = s.dy / distance;

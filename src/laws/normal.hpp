@@ -17,11 +17,11 @@ template <class R> struct NormalInput {
 // f_n = k xi + gamma d xi/dt (2.8). elastic = k [N/m], dissipative = gamma [kg/s].
 struct LinearDashpot {
     static constexpr bool needs_radius = false;
-    template <class R> static R force(const NormalInput<R>& c) {
+    template <class R> static SANDLANE_INLINE R force(const NormalInput<R>& c) {
         return max(c.elastic * c.overlap + c.dissipative * c.rate, R(0.0));
     }
     // Elastic energy k xi^2/2 [J].
-    template <class R> static R energy(const NormalInput<R>& c) {
+    template <class R> static SANDLANE_INLINE R energy(const NormalInput<R>& c) {
         return R(0.5) * c.elastic * c.overlap * c.overlap;
     }
 };
@@ -30,12 +30,12 @@ struct LinearDashpot {
 // elastic = (4/3)/[(1-nu_i^2)/Y_i + (1-nu_j^2)/Y_j] [Pa], dissipative = A [s].
 struct Viscoelastic {
     static constexpr bool needs_radius = true;
-    template <class R> static R force(const NormalInput<R>& c) {
+    template <class R> static SANDLANE_INLINE R force(const NormalInput<R>& c) {
         const R root = sqrt(c.overlap / c.inverse_reduced_radius);
         return max(c.elastic * root * (c.overlap + c.dissipative * c.rate), R(0.0));
     }
     // Elastic energy (2/5) K xi^{5/2} [J].
-    template <class R> static R energy(const NormalInput<R>& c) {
+    template <class R> static SANDLANE_INLINE R energy(const NormalInput<R>& c) {
         const R root = sqrt(c.overlap / c.inverse_reduced_radius);
         return R(0.4) * c.elastic * root * c.overlap * c.overlap;
     }

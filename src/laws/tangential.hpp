@@ -9,14 +9,17 @@ namespace sandlane::laws {
 
 struct Frictionless {
     static constexpr bool needs_spin = false;
-    template <class R> static R force(const R&, const R&, const R&, const R&) { return R(0.0); }
+    template <class R> static SANDLANE_INLINE R force(const R&, const R&, const R&, const R&) {
+        return R(0.0);
+    }
 };
 
 // f_t = -sign(v_t) min(gamma_t |v_t|, mu f_n) (2.18), written as a clamp so that v_t = 0 gives zero.
 struct HaffWerner {
     static constexpr bool needs_spin = true;
     template <class R>
-    static R force(const R& normal_force, const R& tangential_rate, const R& damping, const R& friction) {
+    static SANDLANE_INLINE R force(const R& normal_force, const R& tangential_rate, const R& damping,
+                                   const R& friction) {
         const R limit = friction * normal_force;
         return max(min(-(damping * tangential_rate), limit), -limit);
     }

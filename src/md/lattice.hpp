@@ -21,7 +21,7 @@ public:
     void clear(const State& state);
     // First half of binning, tile by tile: new sites from the records; sites that are left become empty.
     void leave(const State& state, simd::BinKernel kernel, std::size_t begin, std::size_t end);
-    // Second half, after every tile has left.
+    // Second half, after every tile has left: occupies the new sites and their images.
     void enter(const State& state, std::size_t begin, std::size_t end);
 
     [[nodiscard]] simd::LatticeView view() const;
@@ -38,15 +38,18 @@ public:
 private:
     template <class Body> void for_images(std::int32_t site, const Body& body) const;
 
-    Column<double> x_, y_, radius_;
+    Column<float> x_, y_, radius_; // per site, see simd::LatticeView
     Column<std::int32_t> owner_;
     Column<std::int32_t> site_, next_site_; // per particle; -1: none
+    Column<float> relative_x_, relative_y_; // per particle, from the centre of its site
+    Column<std::uint8_t> edge_;             // per particle: its site has an image in the halo
     std::vector<std::int32_t> offsets_;
+    std::vector<float> offset_x_, offset_y_;
     std::ptrdiff_t row_stride_ = 0, origin_ = 0;
     std::int32_t columns_ = 0, rows_ = 0, reach_ = 2, tile_rows_ = 16;
     double lower_x_ = 0, lower_y_ = 0, site_x_ = 1, site_y_ = 1;
     double period_x_ = 0, period_y_ = 0; // 0: open
-    double uniform_square_ = 0;
+    float uniform_square_ = 0;
     bool many_radii_ = true;
 };
 

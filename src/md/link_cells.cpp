@@ -44,15 +44,18 @@ void LinkCells::build(const State& state, simd::BinKernel kernel, int threads) {
         for (Column<double>* column : {&x_, &y_, &radius_}) column->resize(n + block_width, 0.0);
     }
     const simd::BinView bin{state.record.data(),
-                            static_cast<std::int64_t>(n),
                             cell_.data(),
                             lower_x_,
                             lower_y_,
-                            1.0 / cell_x_,
-                            1.0 / cell_y_,
+                            cell_x_,
+                            cell_y_,
                             columns_,
                             rows_,
                             columns_,
+                            0,
+                            nullptr,
+                            nullptr,
+                            nullptr,
                             0};
     for_tiles(state.tiles(), threads, [&](std::size_t tile) {
         kernel(bin, static_cast<std::int64_t>(tile * tile_size),

@@ -70,66 +70,60 @@ struct Visit {
     void operator()(std::int32_t i, std::int32_t j) { largest = kernel(view, &i, &j, 1, target, largest); }
 };
 
-bool near(const LatticeView& lattice, std::ptrdiff_t a, std::ptrdiff_t b, bool many_radii) {
-    const double dx = lattice.x[b] - lattice.x[a], dy = lattice.y[b] - lattice.y[a];
-    const double square = dx * dx + dy * dy;
-    if (!many_radii) return square < lattice.uniform_square * candidate_margin;
-    const double sum = lattice.radius[b] + lattice.radius[a];
-    return square < sum * sum * candidate_margin;
+// Whether two particles are close enough to be worth the law, in double precision from their records.
+bool near(const PairView& view, std::int32_t i, std::int32_t j) {
+    const Particle a = particle(view, i), b = particle(view, j);
+    const double dx = nearest_image(b.x - a.x, view.half_x, view.period_x);
+    const double dy = nearest_image(b.y - a.y, view.half_y, view.period_y);
+    const double sum = b.radius + a.radius;
+    return dx * dx + dy * dy < sum * sum * candidate_margin;
 }
 
 // Sites of one row with mask offsets [k_begin, k_end): full mask, site by site.
-std::int64_t visit_row(const LatticeView& lattice, bool many_radii, std::int32_t row, int k_begin, int k_end,
-                       Visit& visit) {
+std::int64_t visit_row(const LatticeView& lattice, std::int32_t row, int k_begin, int k_end, Visit& visit) {
     std::int64_t occupied = 0;
     const std::ptrdiff_t row_start = lattice.origin + row * lattice.row_stride;
     for (std::ptrdiff_t site = row_start; site < row_start + lattice.columns; ++site) {
-        if (lattice.x[site] == empty_site) continue;
+        const std::int32_t i = lattice.owner[site];
+        if (i < 0) continue;
         ++occupied;
         for (int k = k_begin; k < k_end; ++k) {
-            const std::ptrdiff_t partner = site + lattice.offsets[k];
-            if (lattice.x[partner] == empty_site) continue;
-            if (near(lattice, site, partner, many_radii)) visit(lattice.owner[site], lattice.owner[partner]);
+            const std::int32_t j = lattice.owner[site + lattice.offsets[k]];
+            if (j >= 0 && near(visit.view, i, j)) visit(i, j);
         }
     }
     return occupied;
 }
 
-// The half mask adds to both partners, so its order matters: groups of eight sites, then offsets, then sites.
-std::int64_t visit_row_grouped(const LatticeView& lattice, bool many_radii, std::int32_t row, int k_begin,
-                               int k_end, Visit& visit) {
-    constexpr int group = 8;
+// The half mask adds to both partners, so its order matters: groups of sites, then offsets, then sites.
+std::int64_t visit_row_grouped(const LatticeView& lattice, std::int32_t row, int k_begin, int k_end,
+                               Visit& visit) {
     std::int64_t occupied = 0;
     const std::ptrdiff_t row_start = lattice.origin + row * lattice.row_stride;
     const std::ptrdiff_t row_end = row_start + lattice.columns;
-    for (std::ptrdiff_t first = row_start; first < row_end; first += group) {
-        const std::ptrdiff_t last = first + group < row_end ? first + group : row_end;
-        for (std::ptrdiff_t site = first; site < last; ++site)
-            occupied += lattice.x[site] != empty_site ? 1 : 0;
+    for (std::ptrdiff_t first = row_start; first < row_end; first += site_group) {
+        const std::ptrdiff_t last = first + site_group < row_end ? first + site_group : row_end;
+        for (std::ptrdiff_t site = first; site < last; ++site) occupied += lattice.owner[site] >= 0 ? 1 : 0;
         for (int k = k_begin; k < k_end; ++k)
             for (std::ptrdiff_t site = first; site < last; ++site) {
-                const std::ptrdiff_t partner = site + lattice.offsets[k];
-                if (lattice.x[site] == empty_site || lattice.x[partner] == empty_site) continue;
-                if (near(lattice, site, partner, many_radii))
-                    visit(lattice.owner[site], lattice.owner[partner]);
+                const std::int32_t i = lattice.owner[site], j = lattice.owner[site + lattice.offsets[k]];
+                if (i >= 0 && j >= 0 && near(visit.view, i, j)) visit(i, j);
             }
     }
     return occupied;
 }
 
-template <bool many_radii>
 SweepResult lattice_full(const LatticeView& lattice, const PairView& view, PairKernel kernel,
                          std::int32_t row_begin, std::int32_t row_end) {
     const int offsets = (2 * lattice.reach + 1) * (2 * lattice.reach + 1) - 1;
     Visit visit{view, kernel, Target::first};
     SweepResult result;
     for (std::int32_t row = row_begin; row < row_end; ++row)
-        result.occupied += visit_row(lattice, many_radii, row, 0, offsets, visit);
+        result.occupied += visit_row(lattice, row, 0, offsets, visit);
     result.largest_overlap = visit.largest;
     return result;
 }
 
-template <bool many_radii>
 SweepResult lattice_half(const LatticeView& lattice, const PairView& view, PairKernel kernel,
                          std::int32_t row_begin, std::int32_t row_end) {
     const int side = 2 * lattice.reach + 1;
@@ -143,10 +137,9 @@ SweepResult lattice_half(const LatticeView& lattice, const PairView& view, PairK
             const int to_tile = begin + lattice.reach + (row_begin - 1 - row) * side;
             const int to_end = begin + lattice.reach + (row_end - 1 - row) * side;
             const int cut = to_end < all ? to_end : all;
-            if (target == Target::second) visit_row_grouped(lattice, many_radii, row, to_tile, all, visit);
-            if (target == Target::both)
-                result.occupied += visit_row_grouped(lattice, many_radii, row, begin, cut, visit);
-            if (target == Target::first) visit_row_grouped(lattice, many_radii, row, cut, all, visit);
+            if (target == Target::second) visit_row_grouped(lattice, row, to_tile, all, visit);
+            if (target == Target::both) result.occupied += visit_row_grouped(lattice, row, begin, cut, visit);
+            if (target == Target::first) visit_row_grouped(lattice, row, cut, all, visit);
         }
         result.largest_overlap = visit.largest;
     };
@@ -249,11 +242,18 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
 void bin_sites(const BinView& view, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
         const double* r = view.records + i * record_fields;
-        auto column = static_cast<std::int32_t>(std::floor((r[0] - view.lower_x) * view.inverse_dx));
-        auto row = static_cast<std::int32_t>(std::floor((r[1] - view.lower_y) * view.inverse_dy));
+        const double x = r[0] - view.lower_x, y = r[1] - view.lower_y;
+        auto column = static_cast<std::int32_t>(std::floor(x * (1.0 / view.dx)));
+        auto row = static_cast<std::int32_t>(std::floor(y * (1.0 / view.dy)));
         if (column >= view.columns) column = view.columns - 1;
         if (row >= view.rows) row = view.rows - 1;
         view.site[i] = static_cast<std::int32_t>(view.origin + row * view.row_stride + column);
+        if (view.relative_x == nullptr) continue;
+        view.relative_x[i] = static_cast<float>(x - (column + 0.5) * view.dx);
+        view.relative_y[i] = static_cast<float>(y - (row + 0.5) * view.dy);
+        const bool interior = column >= view.reach && column < view.columns - view.reach &&
+                              row >= view.reach && row < view.rows - view.reach;
+        view.edge[i] = interior ? 0 : 1;
     }
 }
 
@@ -275,10 +275,8 @@ MdKernels make_table() {
     int law = 0;
 #define NORMAL(type, choice) fill_pairs<laws::type>(t.pair[law++]);
 #include "laws/laws.def"
-    t.lattice_full[0] = lattice_full<false>;
-    t.lattice_full[1] = lattice_full<true>;
-    t.lattice_half[0] = lattice_half<false>;
-    t.lattice_half[1] = lattice_half<true>;
+    t.lattice_full[0] = t.lattice_full[1] = lattice_full;
+    t.lattice_half[0] = t.lattice_half[1] = lattice_half;
     t.cells = cells_full;
     fill_motion<4, false>(t);
     fill_motion<4, true>(t);

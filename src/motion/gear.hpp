@@ -2,6 +2,8 @@
 // Coefficients c_k for velocity-dependent forces, which dissipative contacts are.
 #pragma once
 
+#include "core/real.hpp"
+
 namespace sandlane::motion {
 
 template <int order> struct Gear;
@@ -16,14 +18,14 @@ template <> struct Gear<6> { // (2.26)
 };
 
 // X <- P X with the binomial matrix, as repeated additions (a Pascal triangle).
-template <int order, class R> inline void gear_predict(R (&x)[order]) {
+template <int order, class R> SANDLANE_INLINE void gear_predict(R (&x)[order]) {
     for (int first = 0; first < order - 1; ++first)
         for (int k = order - 2; k >= first; --k) x[k] = x[k] + x[k + 1];
 }
 
 // X <- X + c (dt^2/2 a - X_2); `half_dt2` = dt^2/2 [s^2], a [m/s^2 or rad/s^2].
 template <int order, class R>
-inline void gear_correct(R (&x)[order], const R& acceleration, const R& half_dt2) {
+SANDLANE_INLINE void gear_correct(R (&x)[order], const R& acceleration, const R& half_dt2) {
     const R difference = half_dt2 * acceleration - x[2];
     for (int k = 0; k < order; ++k) x[k] = x[k] + R(Gear<order>::c[k]) * difference;
 }
