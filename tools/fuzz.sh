@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# tools/fuzz.sh PROGRAM: feeds one fuzz target for a few seconds, from its kept corpus and from what earlier runs found.
+set -euo pipefail
+name=$(basename "$1" _fuzz)
+found=build/fuzz/corpus/$name
+kept=tests/fuzz/corpus/$name
+mkdir -p "$found"
+arguments=("$found")
+if [ -d "$kept" ]; then arguments+=("$kept"); fi
+if [ -f "tests/fuzz/$name.dict" ]; then arguments+=("-dict=tests/fuzz/$name.dict"); fi
+OMP_NUM_THREADS=1 exec "$1" -max_total_time=15 -timeout=10 -print_final_stats=1 \
+    -artifact_prefix="build/fuzz/crashes/$name-" "${arguments[@]}"
