@@ -81,13 +81,17 @@ void Simulation::run(std::int64_t steps) {
     }
 }
 
+// First step at or after the time of insertion; one rule for looking ahead and for inserting, whatever the
+// rounding.
+std::int64_t Simulation::insertion_step(const scene::GrainState& grain) const {
+    const double at = std::ceil(grain.insert_at / plan_.dt * (1 - 1e-14));
+    return at < 9e15 ? static_cast<std::int64_t>(at) : std::numeric_limits<std::int64_t>::max();
+}
+
 std::int64_t Simulation::next_stop(std::int64_t end) const {
     std::int64_t stop = std::min(end, (step_ / sort_interval + 1) * sort_interval);
-    if (next_waiting_ < waiting_.size()) {
-        const double at = std::ceil(waiting_[next_waiting_].insert_at / plan_.dt);
-        const double limited = std::clamp(at, static_cast<double>(step_ + 1), static_cast<double>(stop));
-        stop = static_cast<std::int64_t>(limited);
-    }
+    if (next_waiting_ < waiting_.size())
+        stop = std::min(stop, std::max(step_ + 1, insertion_step(waiting_[next_waiting_])));
     return stop;
 }
 
@@ -287,7 +291,7 @@ bool Simulation::has_room(const scene::GrainState& grain) const {
 void Simulation::insert_due() {
     const std::int64_t retry = 100; // steps until a grain that found no room tries again
     bool inserted = false;
-    while (next_waiting_ < waiting_.size() && waiting_[next_waiting_].insert_at <= time() + 0.5 * plan_.dt) {
+    while (next_waiting_ < waiting_.size() && insertion_step(waiting_[next_waiting_]) <= step_) {
         scene::GrainState grain = waiting_[next_waiting_];
         if (!has_room(grain)) {
             ++delayed_;

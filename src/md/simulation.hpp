@@ -68,6 +68,7 @@ private:
     void check_overlap(double overlap) const;
     [[nodiscard]] simd::MotionView motion_view();
     [[nodiscard]] simd::PairView pair_view();
+    [[nodiscard]] std::int64_t insertion_step(const scene::GrainState& grain) const;
     [[nodiscard]] std::int64_t next_stop(std::int64_t end) const;
 
     scene::Scene scene_;

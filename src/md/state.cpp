@@ -53,6 +53,10 @@ void State::append(const scene::GrainState& grain, const Plan& plan, double dt) 
     inverse_mass[i] = 1.0 / grain.mass;
     material[i] = grain.material;
     id[i] = grain.id;
+    image_x[i] = image_y[i] = 0;
+    // The lane may have been padding, which the integrator moves along.
+    for (int dof = 0; dof < dofs; ++dof)
+        for (int k = 0; k < order; ++k) value(i, dof, k) = 0.0;
     value(i, 0, 0) = grain.position.x;
     value(i, 1, 0) = grain.position.y;
     value(i, 0, 1) = grain.velocity.x * dt;

@@ -226,13 +226,15 @@ TEST(Stress, OppositeForcesOnADisc) { // 9.8: two opposite unit forces on R = 1:
 }
 
 TEST(Guards, SharedSiteIsAnErrorOrASwitch) {
-    scene::Scene s = empty_scene(); // 100 x 100 sites of 0.02 m
+    scene::Scene s = empty_scene(); // 100 x 20 sites of 0.02 m
+    s.domain.lower.y = -0.2;
+    s.domain.upper.y = 0.2;
     s.materials[0].stiffness = 1;
     s.md.max_speed = 0.1;
     s.md.dt = 1e-3;
     std::vector<scene::GrainState> grains;
     for (int n = 0; n < 40; ++n)
-        grains.push_back(grain(n, {-0.9 + 0.04 * n, -0.5, 0}, {0, 0, 0}, 0.015, 1e-3));
+        grains.push_back(grain(n, {-0.9 + 0.04 * n, -0.1, 0}, {0, 0, 0}, 0.015, 1e-3));
     grains[6].position = {0.002, 0.002, 0}; // overlap 0.58 R, both in one site
     grains[7].position = {0.018, 0.016, 0};
     s.md.neighbours = scene::NeighbourMethod::lattice;
