@@ -67,6 +67,8 @@ struct Sizes {
 struct GrainItem {
     Vec position, velocity;
     double radius = 0, omega = 0;
+    double angle = 0;
+    double mass = 0; // 0: from the density
 };
 
 // A population of free grains.

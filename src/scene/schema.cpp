@@ -160,7 +160,10 @@ const Table<GrainItem>& item_table() {
             .vector("velocity", &GrainItem::velocity, Unit::speed, "velocity")
             .number("radius", &GrainItem::radius, Unit::length, positive(), "radius")
             .required()
-            .number("omega", &GrainItem::omega, Unit::angular_speed, any, "spin");
+            .number("omega", &GrainItem::omega, Unit::angular_speed, any, "spin")
+            .number("angle", &GrainItem::angle, Unit::angle, any, "orientation")
+            .number("mass", &GrainItem::mass, Unit::mass, not_negative(),
+                    "above 0: instead of the density's");
     return table;
 }
 

@@ -1,0 +1,107 @@
+// Grains in square cells: neighbour search for start states. Plain and serial; the engines have their own.
+#pragma once
+
+#include "core/vec.hpp"
+#include "scene/scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sandlane::scene {
+
+// The domain as a metric space: minimum image across periodic sides.
+struct Box {
+    Vec lower, upper;
+    std::array<bool, 2> periodic{false, false};
+
+    explicit Box(const Domain& domain)
+        : lower(domain.lower), upper(domain.upper), periodic{domain.periodic[0], domain.periodic[1]} {}
+
+    [[nodiscard]] Vec size() const { return upper - lower; }
+    // From a to b.
+    [[nodiscard]] Vec separation(Vec a, Vec b) const {
+        Vec d = b - a;
+        if (periodic[0]) d.x -= size().x * std::nearbyint(d.x / size().x);
+        if (periodic[1]) d.y -= size().y * std::nearbyint(d.y / size().y);
+        return d;
+    }
+    // Into [lower, upper) along periodic sides.
+    [[nodiscard]] Vec wrapped(Vec p) const {
+        if (periodic[0]) p.x = wrap(p.x, lower.x, upper.x);
+        if (periodic[1]) p.y = wrap(p.y, lower.y, upper.y);
+        return p;
+    }
+
+private:
+    static double wrap(double x, double low, double high) {
+        x -= (high - low) * std::floor((x - low) / (high - low));
+        return x < high ? x : low; // rounding may land on the upper side
+    }
+};
+
+class CellGrid {
+public:
+    // Finds every pair of points closer than `reach`.
+    CellGrid(const Box& box, double reach, std::size_t points) : box_(box) {
+        next_.reserve(points);
+        // Far more cells than points cost memory and find nothing.
+        const double most = 2 + 2 * std::sqrt(static_cast<double>(points));
+        const auto cells = [&](double length) {
+            return static_cast<std::int64_t>(std::clamp(std::floor(length / reach), 1.0, most));
+        };
+        columns_ = cells(box.size().x);
+        rows_ = cells(box.size().y);
+        head_.assign(static_cast<std::size_t>(columns_ * rows_), -1);
+    }
+
+    // Points are numbered in the order of insertion.
+    void insert(Vec p) {
+        std::int64_t& head = head_[static_cast<std::size_t>(row(p) * columns_ + column(p))];
+        next_.push_back(head);
+        head = static_cast<std::int64_t>(next_.size()) - 1;
+    }
+
+    // Calls body(number) for the points of the cell of p and of the eight around it, each once.
+    template <class Body> void for_near(Vec p, const Body& body) const {
+        const auto [left, width] = span(column(p), columns_, box_.periodic[0]);
+        const auto [bottom, height] = span(row(p), rows_, box_.periodic[1]);
+        for (std::int64_t r = bottom; r < bottom + height; ++r)
+            for (std::int64_t c = left; c < left + width; ++c)
+                for (std::int64_t n = head_[cell(c, r)]; n >= 0; n = next_[static_cast<std::size_t>(n)])
+                    body(static_cast<std::size_t>(n));
+    }
+
+private:
+    struct Span {
+        std::int64_t first, count;
+    };
+    static Span span(std::int64_t at, std::int64_t cells, bool periodic) {
+        if (periodic) return cells < 3 ? Span{0, cells} : Span{at - 1 + cells, 3};
+        const std::int64_t first = std::max<std::int64_t>(at - 1, 0);
+        return {first, std::min(at + 1, cells - 1) - first + 1};
+    }
+    [[nodiscard]] std::size_t cell(std::int64_t c, std::int64_t r) const {
+        return static_cast<std::size_t>((r % rows_) * columns_ + c % columns_);
+    }
+    // Points outside an open box count to its outermost cells, which keeps neighbours together.
+    static std::int64_t index(double x, double low, double high, std::int64_t cells) {
+        const double at = std::floor((x - low) / (high - low) * static_cast<double>(cells));
+        return static_cast<std::int64_t>(std::clamp(at, 0.0, static_cast<double>(cells - 1)));
+    }
+    [[nodiscard]] std::int64_t column(Vec p) const {
+        return index(box_.wrapped(p).x, box_.lower.x, box_.upper.x, columns_);
+    }
+    [[nodiscard]] std::int64_t row(Vec p) const {
+        return index(box_.wrapped(p).y, box_.lower.y, box_.upper.y, rows_);
+    }
+
+    Box box_;
+    std::int64_t columns_ = 1, rows_ = 1;
+    std::vector<std::int64_t> head_, next_;
+};
+
+} // namespace sandlane::scene

@@ -1,0 +1,147 @@
+#include "scene/initial_state.hpp"
+
+#include "core/error.hpp"
+#include "scene/cell_grid.hpp"
+#include "scene/population.hpp"
+#include "scene/wall_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sandlane::scene {
+
+namespace {
+
+constexpr double legal_overlap = 0.05; // of the smaller radius (md-spheres 2.6)
+
+class Checker {
+public:
+    Checker(const Scene& scene, const std::vector<GrainState>& grains, const std::vector<std::size_t>& from)
+        : scene_(scene), grains_(grains), population_(from), box_(scene.domain) {
+        for (const GrainState& g : grains) largest_ = std::max(largest_, g.radius);
+    }
+
+    void check() const {
+        check_periods();
+        for (const GrainState& g : grains_) check_place(g);
+        check_overlaps();
+        check_walls();
+    }
+
+private:
+    [[nodiscard]] std::string name(const GrainState& g) const {
+        const auto id = static_cast<std::size_t>(g.id);
+        return fmt::format("grain {} ({})", g.id, population_name(scene_, population_[id]));
+    }
+
+    // With a shorter period a grain could touch two images of another.
+    void check_periods() const {
+        const Vec size = box_.size();
+        for (const int axis : {0, 1}) {
+            const double period = axis == 0 ? size.x : size.y;
+            if (box_.periodic[static_cast<std::size_t>(axis)] && period < 4 * largest_)
+                fail(Exit::invalid_input,
+                     "domain.periodic: the period of {} m along {} is too short for the largest radius {} m; "
+                     "allowed: {} m or more (two diameters). Enlarge domain.upper.",
+                     period, axis == 0 ? "x" : "y", largest_, 4 * largest_);
+        }
+    }
+
+    void check_place(const GrainState& g) const {
+        const Vec p = g.position, low = box_.lower, high = box_.upper;
+        if (!(p.x >= low.x && p.x < high.x && p.y >= low.y && p.y < high.y))
+            fail(Exit::invalid_input,
+                 "{}: its centre ({}, {}) m lies outside the domain; allowed: [{}, {}) x [{}, {}) m. Move it "
+                 "or enlarge the domain.",
+                 name(g), p.x, p.y, low.x, high.x, low.y, high.y);
+    }
+
+    void check_overlaps() const {
+        CellGrid grid(box_, 2 * largest_, grains_.size());
+        std::vector<std::size_t> present; // poured ones are checked when they are inserted
+        for (std::size_t i = 0; i < grains_.size(); ++i)
+            if (!std::isfinite(grains_[i].insert_at)) present.push_back(i);
+        double worst = legal_overlap;
+        std::size_t first = 0, second = 0, count = 0;
+        for (std::size_t n = 0; n < present.size(); ++n) {
+            const GrainState& g = grains_[present[n]];
+            grid.for_near(g.position, [&](std::size_t m) {
+                const GrainState& other = grains_[present[m]];
+                const double distance = norm(box_.separation(g.position, other.position));
+                const double overlap = g.radius + other.radius - distance;
+                const double ratio = overlap / std::min(g.radius, other.radius);
+                if (ratio <= legal_overlap) return;
+                ++count;
+                if (ratio <= worst) return;
+                worst = ratio;
+                first = present[m];
+                second = present[n];
+            });
+            grid.insert(g.position);
+        }
+        if (count > 0) refuse_overlap(grains_[first], grains_[second], worst, count);
+    }
+
+    [[noreturn]] void refuse_overlap(const GrainState& a, const GrainState& b, double ratio,
+                                     std::size_t count) const {
+        const double distance = norm(box_.separation(a.position, b.position));
+        const std::string more = count > 1 ? fmt::format(" ({} pairs overlap too much)", count) : "";
+        if (distance == 0)
+            fail(Exit::invalid_input, "{} and {} have the same centre ({}, {}) m{}. Move one of them.",
+                 name(a), name(b), a.position.x, a.position.y, more);
+        fail(Exit::invalid_input,
+             "{} and {} overlap by {:.4g} m, {:.3g} % of the smaller radius; allowed: up to {:.3g} %{}. "
+             "Increase their distance or reduce the radii.",
+             name(a), name(b), a.radius + b.radius - distance, 100 * ratio, 100 * legal_overlap, more);
+    }
+
+    void check_walls() const {
+        const std::vector<WallPiece> pieces = walls_at_start(scene_);
+        for (const GrainState& g : grains_) {
+            if (std::isfinite(g.insert_at)) continue;
+            for (const WallPiece& piece : pieces) {
+                const double distance = gap(piece, g.position).distance;
+                if (distance >= (1 - legal_overlap) * g.radius) continue;
+                const std::string& wall = scene_.walls[static_cast<std::size_t>(piece.wall)].name;
+                fail(Exit::invalid_input,
+                     "{}: its centre ({}, {}) m is {:.4g} m from the surface of walls[{}]{}; allowed: {:.4g} "
+                     "m or more (95 % of its radius {} m). Move the grain or the wall.",
+                     name(g), g.position.x, g.position.y, distance, piece.wall,
+                     wall.empty() ? "" : fmt::format(" \"{}\"", wall), (1 - legal_overlap) * g.radius,
+                     g.radius);
+            }
+        }
+    }
+
+    const Scene& scene_;
+    const std::vector<GrainState>& grains_;
+    const std::vector<std::size_t>& population_; // of each grain
+    Box box_;
+    double largest_ = 0;
+};
+
+} // namespace
+
+double grain_mass(const Scene& scene, const Grains& population, int material, double radius) {
+    const double density = population.density > 0
+                               ? population.density
+                               : scene.materials.at(static_cast<std::size_t>(material)).density;
+    const double disc = std::numbers::pi * radius * radius * density;
+    return scene.md.body == Body::disc ? disc : 4.0 / 3.0 * radius * disc;
+}
+
+std::vector<GrainState> initial_grains(const Scene& scene) {
+    std::vector<GrainState> grains;
+    std::vector<std::size_t> from;
+    for (std::size_t p = 0; p < scene.grains.size(); ++p)
+        for (GrainState& g : population(scene, p, grains)) {
+            g.id = static_cast<std::int64_t>(grains.size());
+            grains.push_back(g);
+            from.push_back(p);
+        }
+    if (!grains.empty()) Checker(scene, grains, from).check();
+    return grains;
+}
+
+} // namespace sandlane::scene

@@ -1,0 +1,188 @@
+#include "scene/population.hpp"
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "scene/packing.hpp"
+#include "scene/radius_law.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace sandlane::scene {
+
+namespace {
+
+int material_index(const Scene& scene, const std::string& name) {
+    for (std::size_t m = 0; m < scene.materials.size(); ++m)
+        if (scene.materials[m].name == name) return static_cast<int>(m);
+    return 0;
+}
+
+class Maker {
+public:
+    Maker(const Scene& scene, std::size_t index)
+        : scene_(scene), grains_(scene.grains[index]), index_(static_cast<std::uint32_t>(index)),
+          name_(population_name(scene, index)), lower_(grains_.lower), upper_(grains_.upper) {
+        if (lower_ == upper_) {
+            lower_ = scene.domain.lower;
+            upper_ = scene.domain.upper;
+        }
+        prototype_.material = material_index(scene, grains_.material);
+        prototype_.omega = grains_.omega;
+    }
+
+    std::vector<GrainState> make(const std::vector<GrainState>& placed) const {
+        std::vector<GrainState> grains;
+        switch (grains_.kind) {
+        case GrainKind::lattice:
+            grains = lattice();
+            break;
+        case GrainKind::random:
+            grains = random(placed);
+            break;
+        case GrainKind::pour:
+            grains = pour();
+            break;
+        case GrainKind::list:
+            grains = list();
+            break;
+        case GrainKind::file:
+            grains = file();
+            break;
+        }
+        for (GrainState& g : grains)
+            if (g.mass == 0) g.mass = grain_mass(scene_, grains_, g.material, g.radius);
+        add_velocities(grains);
+        return grains;
+    }
+
+private:
+    [[nodiscard]] Random stream(Stream use) const {
+        return {static_cast<std::uint64_t>(scene_.seed), use, index_};
+    }
+    [[nodiscard]] double radius(std::size_t i) const {
+        return radius_of(grains_.sizes, stream(Stream::radius).uniform(i));
+    }
+    [[nodiscard]] GrainState grain(Vec position, double r) const {
+        GrainState g = prototype_;
+        g.position = position;
+        g.radius = r;
+        return g;
+    }
+
+    [[nodiscard]] std::vector<GrainState> lattice() const {
+        const Box box(scene_.domain);
+        const Random displacement = stream(Stream::jitter);
+        std::vector<GrainState> grains;
+        for (std::int64_t row = 0; row < grains_.counts[1]; ++row)
+            for (std::int64_t column = 0; column < grains_.counts[0]; ++column) {
+                const auto [u, w] = displacement.uniform2(grains.size());
+                const double shift = grains_.triangular && row % 2 != 0 ? 0.5 : 0;
+                const double x = static_cast<double>(column) + shift + grains_.jitter * (2 * u - 1);
+                const double y = static_cast<double>(row) + grains_.jitter * (2 * w - 1);
+                const Vec p = grains_.lower + Vec{x * grains_.spacing.x, y * grains_.spacing.y, 0};
+                grains.push_back(grain(box.wrapped(p), radius(grains.size())));
+            }
+        return grains;
+    }
+
+    [[nodiscard]] std::vector<GrainState> random(const std::vector<GrainState>& placed) const {
+        PackingTask task{name_,
+                         Box(scene_.domain),
+                         lower_,
+                         upper_,
+                         random_radii(),
+                         {},
+                         walls_at_start(scene_),
+                         stream(Stream::position)};
+        for (const GrainState& g : placed)
+            if (!std::isfinite(g.insert_at)) task.fixed.push_back({g.position, g.radius});
+        const std::vector<Vec> centres = pack(task);
+        std::vector<GrainState> grains;
+        for (std::size_t i = 0; i < centres.size(); ++i) grains.push_back(grain(centres[i], task.radii[i]));
+        return grains;
+    }
+
+    // `count` radii, or as many as come closest to the packing fraction.
+    [[nodiscard]] std::vector<double> random_radii() const {
+        const double wanted = grains_.packing_fraction * (upper_.x - lower_.x) * (upper_.y - lower_.y);
+        std::vector<double> radii;
+        double area = 0;
+        for (std::size_t i = 0;; ++i) {
+            const double r = radius(i), disc = std::numbers::pi * r * r;
+            if (grains_.count > 0 ? static_cast<std::int64_t>(i) >= grains_.count
+                                  : area + 0.5 * disc > wanted)
+                return radii;
+            radii.push_back(r);
+            area += disc;
+        }
+    }
+
+    // Whether a grain finds room is known only when its time has come.
+    [[nodiscard]] std::vector<GrainState> pour() const {
+        const Random place = stream(Stream::pour);
+        std::vector<GrainState> grains;
+        for (std::int64_t n = 0; n < grains_.count; ++n) {
+            const auto [u, w] = place.uniform2(static_cast<std::uint64_t>(n));
+            const Vec p = lower_ + Vec{u * (upper_.x - lower_.x), w * (upper_.y - lower_.y), 0};
+            grains.push_back(grain(p, radius(grains.size())));
+            grains.back().insert_at = grains_.start + static_cast<double>(n) / grains_.rate;
+        }
+        return grains;
+    }
+
+    [[nodiscard]] std::vector<GrainState> list() const {
+        std::vector<GrainState> grains;
+        for (const GrainItem& item : grains_.items) {
+            grains.push_back(grain(item.position, item.radius));
+            grains.back().velocity = item.velocity;
+            grains.back().angle = item.angle;
+            grains.back().omega += item.omega;
+            grains.back().mass = item.mass;
+        }
+        return grains;
+    }
+
+    [[nodiscard]] std::vector<GrainState> file() const {
+        std::vector<GrainState> grains = grains_of_file(scene_, grains_, prototype_);
+        for (std::size_t i = 0; i < grains.size(); ++i)
+            if (grains[i].radius == 0) grains[i].radius = radius(i);
+        return grains;
+    }
+
+    // The common velocity, and thermal parts whose sum is zero.
+    void add_velocities(std::vector<GrainState>& grains) const {
+        Vec mean;
+        if (grains_.thermal_speed > 0 && grains.size() > 1) {
+            const Random thermal = stream(Stream::velocity);
+            for (std::size_t i = 0; i < grains.size(); ++i) {
+                const auto [x, y] = thermal.normal2(i);
+                const Vec part = grains_.thermal_speed * Vec{x, y, 0};
+                grains[i].velocity = grains[i].velocity + part;
+                mean = mean + (1 / static_cast<double>(grains.size())) * part;
+            }
+        }
+        for (GrainState& g : grains) g.velocity = g.velocity + grains_.velocity - mean;
+    }
+
+    const Scene& scene_;
+    const Grains& grains_;
+    std::uint32_t index_;
+    std::string name_;
+    Vec lower_, upper_; // region
+    GrainState prototype_;
+};
+
+} // namespace
+
+std::string population_name(const Scene& scene, std::size_t index) {
+    const std::string& name = scene.grains[index].name;
+    return name.empty() ? fmt::format("grains[{}]", index) : fmt::format("grains[{}] \"{}\"", index, name);
+}
+
+std::vector<GrainState> population(const Scene& scene, std::size_t index,
+                                   const std::vector<GrainState>& placed) {
+    return Maker(scene, index).make(placed);
+}
+
+} // namespace sandlane::scene

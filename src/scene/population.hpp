@@ -1,0 +1,24 @@
+// The grains of one population, before those of other populations are looked at.
+#pragma once
+
+#include "scene/initial_state.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sandlane::scene {
+
+// `placed`: the grains of the populations before this one; random ones keep clear of them. Ids are left 0.
+[[nodiscard]] std::vector<GrainState> population(const Scene& scene, std::size_t index,
+                                                 const std::vector<GrainState>& placed);
+
+// "grains[2] "beads"" for messages.
+[[nodiscard]] std::string population_name(const Scene& scene, std::size_t index);
+
+// Grains of a file: CSV with a header line of column names, or free grains of the book's 25-column format.
+// Columns that the file lacks are left at what `prototype` says.
+[[nodiscard]] std::vector<GrainState> grains_of_file(const Scene& scene, const Grains& grains,
+                                                     const GrainState& prototype);
+
+} // namespace sandlane::scene

@@ -1,0 +1,34 @@
+// Walls as simple pieces where the scene puts them, for checks and packings of start states.
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <vector>
+
+namespace sandlane::scene {
+
+// The grains of a wall of kind `grains`: listed ones, a ring, or a row from the first point to the last.
+[[nodiscard]] std::vector<GrainItem> wall_grains(const Wall& wall);
+
+struct WallPiece {
+    enum class Kind { plane, segment, arc, disc };
+    Kind kind = Kind::segment;
+    Vec a, b;                              // plane: point, unit normal; segment: ends; arc, disc: centre in a
+    double radius = 0;                     // arc, disc
+    double angle_from = 0, angle_span = 0; // arc, counter-clockwise
+    int wall = 0;                          // index in Scene::walls
+};
+
+// Distance of p from the surface, and the unit vector that leads away from it. Negative behind a plane and
+// inside a wall grain.
+struct Gap {
+    double distance = 0;
+    Vec away;
+};
+[[nodiscard]] Gap gap(const WallPiece& piece, Vec p);
+
+// All walls that stand at t = 0 where the scene puts them; a motion that has already displaced its walls at
+// t = 0 (planetary, a cosine, a phase) leaves them out.
+[[nodiscard]] std::vector<WallPiece> walls_at_start(const Scene& scene);
+
+} // namespace sandlane::scene
