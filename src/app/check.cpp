@@ -3,6 +3,8 @@
 #include "app/prepare.hpp"
 #include "core/progress.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 
 namespace sandlane::app {

@@ -132,7 +132,7 @@ int run(const Common& common, const RunOptions& options) {
         timing.loop_seconds += seconds;
         timing.steps += stop - before;
         timing.particle_steps += static_cast<double>(stop - before) * static_cast<double>(sim.state().size());
-        if (seconds < 0.05) slice *= 2;
+        if (seconds < 0.05 && stop - before == slice) slice *= 2;
         if (seconds > 0.2 && slice > 1) slice /= 2;
         outputs.write_due(sim, false);
         if (options.check_every > 0 && sim.step() % options.check_every == 0) report_check(sim, worst);

@@ -60,7 +60,7 @@ ThreadChoice choose_threads(int requested) {
     ThreadChoice choice{requested, "--threads"};
     for (const char* name : {"SANDLANE_THREADS", "OMP_NUM_THREADS"})
         if (choice.count <= 0) choice = {threads_from_environment(name), name};
-    if (choice.count <= 0) return {allowed_cpus(), "affinity and cgroup quota"};
+    if (choice.count <= 0) return {allowed_cpus(), "affinity and cgroup quota", true};
     // Oversubscription helps to test determinism on small machines; far beyond the CPUs it is a mistake.
     const int limit = std::max(8, 4 * allowed_cpus());
     if (choice.count > limit)

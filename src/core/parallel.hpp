@@ -11,7 +11,8 @@ namespace sandlane {
 
 struct ThreadChoice {
     int count = 1;
-    std::string reason; // e.g. "--threads", "OMP_NUM_THREADS", "affinity and cgroup quota"
+    std::string reason;     // e.g. "--threads", "OMP_NUM_THREADS", "affinity and cgroup quota"
+    bool automatic = false; // nobody asked for this number: an engine may use fewer for a small scene
 };
 
 // requested <= 0 means "not given". Precedence: requested, SANDLANE_THREADS, OMP_NUM_THREADS, affinity and

@@ -276,6 +276,14 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     Plan plan;
     plan.isa = isa;
     plan.threads = threads.count;
+    std::string threads_reason = threads.reason;
+    // Three fork-joins per step cost as much as this many grains; the number of threads changes no bit.
+    const std::size_t grains_per_thread = 2000;
+    const std::size_t useful = std::max<std::size_t>(1, (needs.grains + needs.poured) / grains_per_thread);
+    if (threads.automatic && useful < static_cast<std::size_t>(threads.count)) {
+        plan.threads = static_cast<int>(useful);
+        threads_reason = fmt::format("of {} allowed: {} grains per thread at least", threads.count, grains_per_thread);
+    }
     plan.lower = scene.domain.lower;
     plan.upper = scene.domain.upper;
     plan.order = order_of(scene.md.integrator);
@@ -299,7 +307,7 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     plan.steps = std::llround(scene.md.duration / plan.dt);
     choose_neighbours(scene, needs, plan);
     plan.chosen.insert(plan.chosen.begin(), fmt::format("kernels: {}; threads: {} ({})", simd::isa_name(isa),
-                                                        threads.count, threads.reason));
+                                                        plan.threads, threads_reason));
     note_skipped(scene, needs, plan);
     return plan;
 }

@@ -80,10 +80,10 @@ INSTANTIATE_TEST_SUITE_P(Fractions, Packing,
                                          Case{1000, 0.2, false}, Case{1000, 0.5, false},
                                          Case{1000, 0.8, false}, Case{100000, 0.2, true},
                                          Case{100000, 0.5, true}, Case{100000, 0.82, true}),
-                         [](const auto& info) {
-                             return fmt::format("{}grains{:.0f}percent{}", info.param.count,
-                                                100 * info.param.fraction,
-                                                info.param.periodic ? "Periodic" : "Closed");
+                         [](const auto& param_info) {
+                             return fmt::format("{}grains{:.0f}percent{}", param_info.param.count,
+                                                100 * param_info.param.fraction,
+                                                param_info.param.periodic ? "Periodic" : "Closed");
                          });
 
 } // namespace
