@@ -1,5 +1,5 @@
-// The book program's snapshot frames (md-spheres 1.14): 25 columns per grain. A snapshot holds no forces and no
-// higher derivatives, so columns 14 to 25 are 0. Straight walls and arcs have no place in this format.
+// The book program's snapshot frames (md-spheres 1.14): 25 columns per grain. A snapshot holds no forces and
+// no higher derivatives, so columns 14 to 25 are 0. Straight walls and arcs have no place in this format.
 #include "output/single_file.hpp"
 #include "output/writer_list.hpp"
 
@@ -24,11 +24,12 @@ struct Record {
 void append_record(const Record& r, std::string& text) {
     const scene::Material& m = r.material;
     const double reduced_modulus = 4 * m.young / (3 * (1 - m.poisson * m.poisson));
-    fmt::format_to(std::back_inserter(text),
-                   "{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {} {:.17g} {:.17g} {:.17g} {:.17g}"
-                   " 0 0 0 0 0 0 0 0 0 0 0 0\n",
-                   r.x, r.y, r.angle, r.vx, r.vy, r.omega, r.radius, r.mass, r.type, reduced_modulus, m.dissipation,
-                   m.friction, m.tangential_damping);
+    fmt::format_to(
+        std::back_inserter(text),
+        "{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {} {:.17g} {:.17g} {:.17g} {:.17g}"
+        " 0 0 0 0 0 0 0 0 0 0 0 0\n",
+        r.x, r.y, r.angle, r.vx, r.vy, r.omega, r.radius, r.mass, r.type, reduced_modulus, m.dissipation,
+        m.friction, m.tangential_damping);
 }
 
 class BookWriter final : public SingleFileWriter {
@@ -58,11 +59,19 @@ scene::Material BookWriter::material(int index) const {
 // Readers of the format want a positive mass also for wall grains, whose motion does not depend on it.
 Record BookWriter::wall_record(const WallShape& disc) const {
     const double r = disc.radius;
-    const double volume = body_ == scene::Body::sphere ? 4.0 / 3 * std::numbers::pi * r * r * r
-                                                       : std::numbers::pi * r * r;
+    const double volume =
+        body_ == scene::Body::sphere ? 4.0 / 3 * std::numbers::pi * r * r * r : std::numbers::pi * r * r;
     const scene::Material m = material(disc.material);
-    return {disc.centre.x, disc.centre.y, disc.angle, disc.velocity.x, disc.velocity.y, disc.omega, r,
-            volume * m.density, 1, m};
+    return {disc.centre.x,
+            disc.centre.y,
+            disc.angle,
+            disc.velocity.x,
+            disc.velocity.y,
+            disc.omega,
+            r,
+            volume * m.density,
+            1,
+            m};
 }
 
 void BookWriter::format(const Snapshot& s, std::string& text) const {

@@ -40,8 +40,8 @@ void append_header(const Snapshot& s, std::size_t atoms, bool images, std::strin
 
 void append_grain(const Snapshot& s, std::size_t i, std::string& text) {
     const double plane = 0;
-    append_line(text, s.id[i], std::int64_t{s.material[i]} + 1, s.x[i], s.y[i], plane, s.vx[i], s.vy[i], plane,
-                s.radius[i], s.mass[i], s.omega[i], s.angle[i], s.pressure[i]);
+    append_line(text, s.id[i], std::int64_t{s.material[i]} + 1, s.x[i], s.y[i], plane, s.vx[i], s.vy[i],
+                plane, s.radius[i], s.mass[i], s.omega[i], s.angle[i], s.pressure[i]);
 }
 
 // A wall disc has no mass of its own: it moves as prescribed.

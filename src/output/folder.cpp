@@ -78,11 +78,13 @@ void RunFolder::lock(Start start) {
     if (lock_ < 0) fail(Exit::io, "{}: cannot create the file: {}", file.string(), std::strerror(errno));
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
         if (errno == EWOULDBLOCK)
-            fail(Exit::invalid_input, "{}: {} is writing a run here. {}", path_.string(), owner(lock_), way_out);
+            fail(Exit::invalid_input, "{}: {} is writing a run here. {}", path_.string(), owner(lock_),
+                 way_out);
         fail(Exit::io, "{}: cannot lock the file: {}", file.string(), std::strerror(errno));
     }
     if (!created && start == Start::fresh)
-        fail(Exit::invalid_input, "{}: already holds a run, by {}. {}", path_.string(), owner(lock_), way_out);
+        fail(Exit::invalid_input, "{}: already holds a run, by {}. {}", path_.string(), owner(lock_),
+             way_out);
     const std::string text = this_process();
     if (::ftruncate(lock_, 0) != 0 || ::pwrite(lock_, text.data(), text.size(), 0) < 0)
         fail(Exit::io, "{}: cannot write: {}", file.string(), std::strerror(errno));

@@ -1,5 +1,5 @@
-// The folder of a run. A lock file in it tells other runs that the folder is taken: while the run goes on it is held
-// by flock, afterwards its presence says that results lie here.
+// The folder of a run. A lock file in it tells other runs that the folder is taken: while the run goes on it
+// is held by flock, afterwards its presence says that results lie here.
 #pragma once
 
 #include <filesystem>

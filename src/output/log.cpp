@@ -35,7 +35,8 @@ template <class Cell> void for_cells(std::string_view line, const Cell& cell) {
 LogColumn parse_column(std::string_view cell) {
     const std::size_t bracket = cell.find('[');
     if (bracket == std::string_view::npos || cell.back() != ']') return {std::string(cell), ""};
-    return {std::string(cell.substr(0, bracket)), std::string(cell.substr(bracket + 1, cell.size() - bracket - 2))};
+    return {std::string(cell.substr(0, bracket)),
+            std::string(cell.substr(bracket + 1, cell.size() - bracket - 2))};
 }
 
 std::vector<double> parse_row(std::string_view line, const std::filesystem::path& path, std::size_t number) {
@@ -63,7 +64,8 @@ void LogWriter::write(std::span<const std::vector<double>> rows) {
     std::string text;
     for (const std::vector<double>& row : rows) {
         if (row.size() != columns_)
-            fail(Exit::internal, "{}: a row of {} numbers for {} columns", file_.path().string(), row.size(), columns_);
+            fail(Exit::internal, "{}: a row of {} numbers for {} columns", file_.path().string(), row.size(),
+                 columns_);
         for (const double value : row) {
             append(text, value);
             text += ',';

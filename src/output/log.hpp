@@ -1,5 +1,5 @@
-// log.csv: one row per time, the header "time[s],kinetic_energy[J],contacts,...", numbers that read back to the same
-// bits.
+// log.csv: one row per time, the header "time[s],kinetic_energy[J],contacts,...", numbers that read back to
+// the same bits.
 #pragma once
 
 #include "analysis/snapshot.hpp"

@@ -13,8 +13,8 @@ namespace sandlane::output {
 struct ReportInput {
     std::string title, description;
     std::vector<std::pair<std::string, std::string>> summary; // label, value
-    std::string plan;       // the text of `sandlane check`
-    std::string scene_text; // the effective scene
+    std::string plan;                                         // the text of `sandlane check`
+    std::string scene_text;                                   // the effective scene
     analysis::Log log;
 };
 

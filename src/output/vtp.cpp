@@ -1,4 +1,5 @@
-// ParaView: one VTK XML PolyData file per frame with raw appended float32 data, and trajectory.pvd with the times.
+// ParaView: one VTK XML PolyData file per frame with raw appended float32 data, and trajectory.pvd with the
+// times.
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "output/text.hpp"
@@ -20,16 +21,18 @@ namespace {
 using analysis::Snapshot;
 using analysis::WallShape;
 
-static_assert(std::endian::native == std::endian::little, "the appended data is written as it lies in memory");
+static_assert(std::endian::native == std::endian::little,
+              "the appended data is written as it lies in memory");
 
 // The data behind the XML: every block is its length in bytes (UInt64) and its values.
 class Blocks {
 public:
-    template <class T> std::string declare(std::string_view type, std::string_view name, int components,
-                                           const std::vector<T>& values) {
-        std::string tag = fmt::format(
-            "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
-            name, components, bytes_.size());
+    template <class T>
+    std::string declare(std::string_view type, std::string_view name, int components,
+                        const std::vector<T>& values) {
+        std::string tag = fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
+                                      "format=\"appended\" offset=\"{}\"/>\n",
+                                      type, name, components, bytes_.size());
         const std::uint64_t length = values.size() * sizeof(T);
         bytes_.append(reinterpret_cast<const char*>(&length), sizeof length);
         bytes_.append(reinterpret_cast<const char*>(values.data()), length);
@@ -57,9 +60,10 @@ std::vector<float> triples(const std::vector<double>& x, const std::vector<doubl
 }
 
 std::string document(const Snapshot& s, std::string_view piece, const Blocks& blocks) {
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-                       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n"
-                       "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">";
+    std::string text =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n"
+        "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">";
     append(text, s.time);
     text += "</DataArray>\n</FieldData>\n";
     text += piece;
@@ -76,9 +80,10 @@ std::string grains_document(const Snapshot& s) {
         connectivity.push_back(static_cast<std::int64_t>(i));
         offsets.push_back(static_cast<std::int64_t>(i) + 1);
     }
-    std::string piece = fmt::format("<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
-                                    "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData Scalars=\"radius\">\n",
-                                    s.size());
+    std::string piece =
+        fmt::format("<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
+                    "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData Scalars=\"radius\">\n",
+                    s.size());
     piece += blocks.declare("Float32", "radius", 1, single(s.radius));
     piece += blocks.declare("Float32", "velocity", 3, triples(s.vx, s.vy));
     piece += blocks.declare("Float32", "omega", 1, single(s.omega));
@@ -104,7 +109,8 @@ struct Lines {
         points.insert(points.end(), {static_cast<float>(x), static_cast<float>(y), 0.0F});
     }
     void add_arc(Vec centre, double radius, double from, double to) {
-        const int steps = std::max(2, static_cast<int>(std::ceil(std::abs(to - from) * 45 / std::numbers::pi)));
+        const int steps =
+            std::max(2, static_cast<int>(std::ceil(std::abs(to - from) * 45 / std::numbers::pi)));
         for (int k = 0; k <= steps; ++k) {
             const double angle = from + (to - from) * k / steps;
             add_point(centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle));
@@ -129,9 +135,10 @@ std::string walls_document(const Snapshot& s) {
     Lines lines;
     for (const WallShape& shape : s.walls) lines.add(shape);
     Blocks blocks;
-    std::string piece = fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" "
-                                    "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<CellData Scalars=\"wall\">\n",
-                                    lines.points.size() / 3, lines.wall.size());
+    std::string piece =
+        fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" "
+                    "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<CellData Scalars=\"wall\">\n",
+                    lines.points.size() / 3, lines.wall.size());
     piece += blocks.declare("Int32", "wall", 1, lines.wall);
     piece += blocks.declare("Int32", "material", 1, lines.material);
     piece += "</CellData>\n<Points>\n" + blocks.declare("Float32", "Points", 3, lines.points);
@@ -162,10 +169,12 @@ private:
 
 VtpWriter::VtpWriter(fs::path folder, const scene::Scene& scene, const std::string& bookmark)
     : folder_(std::move(folder)) {
-    for (const scene::Wall& wall : scene.walls) walls_move_ = walls_move_ || !wall.motion.empty() || wall.omega != 0;
+    for (const scene::Wall& wall : scene.walls)
+        walls_move_ = walls_move_ || !wall.motion.empty() || wall.omega != 0;
     std::error_code status;
     fs::create_directories(folder_ / "frames", status);
-    if (status) fail(Exit::io, "{}: cannot create the folder: {}", (folder_ / "frames").string(), status.message());
+    if (status)
+        fail(Exit::io, "{}: cannot create the folder: {}", (folder_ / "frames").string(), status.message());
     if (!bookmark.empty()) restore(bookmark);
     remove_frames_from(times_.size());
     write_index();
@@ -178,9 +187,12 @@ void VtpWriter::restore(const std::string& bookmark) {
         const std::size_t end = std::min(rest.find(' '), rest.size());
         double value = 0;
         if (!read_number(rest.substr(0, end), value))
-            fail(Exit::io, "{}: the checkpoint's list of frames is damaged", (folder_ / "trajectory.pvd").string());
-        if (first) has_walls_ = value != 0;
-        else times_.push_back(value);
+            fail(Exit::io, "{}: the checkpoint's list of frames is damaged",
+                 (folder_ / "trajectory.pvd").string());
+        if (first)
+            has_walls_ = value != 0;
+        else
+            times_.push_back(value);
         first = false;
         rest.remove_prefix(std::min(end + 1, rest.size()));
     }
@@ -205,7 +217,8 @@ void VtpWriter::write_index() const {
     const auto add = [&](double time, int part, const fs::path& path) {
         text += "<DataSet timestep=\"";
         append(text, time);
-        text += fmt::format("\" part=\"{}\" file=\"{}\"/>\n", part, path.lexically_relative(folder_).string());
+        text +=
+            fmt::format("\" part=\"{}\" file=\"{}\"/>\n", part, path.lexically_relative(folder_).string());
     };
     for (std::size_t frame = 0; frame < times_.size(); ++frame) {
         add(times_[frame], 0, file("", frame));

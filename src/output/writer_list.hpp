@@ -11,10 +11,14 @@ using WriterFactory = std::unique_ptr<TrajectoryWriter> (*)(const std::filesyste
                                                             const scene::Scene& scene,
                                                             const std::string& bookmark);
 
-std::unique_ptr<TrajectoryWriter> make_dump(const std::filesystem::path&, const scene::Scene&, const std::string&);
-std::unique_ptr<TrajectoryWriter> make_xyz(const std::filesystem::path&, const scene::Scene&, const std::string&);
-std::unique_ptr<TrajectoryWriter> make_vtp(const std::filesystem::path&, const scene::Scene&, const std::string&);
-std::unique_ptr<TrajectoryWriter> make_book(const std::filesystem::path&, const scene::Scene&, const std::string&);
+std::unique_ptr<TrajectoryWriter> make_dump(const std::filesystem::path&, const scene::Scene&,
+                                            const std::string&);
+std::unique_ptr<TrajectoryWriter> make_xyz(const std::filesystem::path&, const scene::Scene&,
+                                           const std::string&);
+std::unique_ptr<TrajectoryWriter> make_vtp(const std::filesystem::path&, const scene::Scene&,
+                                           const std::string&);
+std::unique_ptr<TrajectoryWriter> make_book(const std::filesystem::path&, const scene::Scene&,
+                                            const std::string&);
 
 struct WriterEntry {
     scene::Trajectory kind;

@@ -28,8 +28,8 @@ std::int64_t length_in(const std::string& bookmark, const std::filesystem::path&
     if (bookmark.empty()) return -1;
     std::int64_t length = -1;
     if (!read_number(bookmark, length) || length < 0)
-        fail(Exit::io, "{}: the checkpoint holds \"{}\" where the length of this file is expected", path.string(),
-             bookmark);
+        fail(Exit::io, "{}: the checkpoint holds \"{}\" where the length of this file is expected",
+             path.string(), bookmark);
     return length;
 }
 
@@ -41,8 +41,10 @@ double half_depth(const analysis::Snapshot& snapshot) {
     return width > 0 ? 0.01 * width : 1;
 }
 
-std::unique_ptr<TrajectoryWriter> make_trajectory_writer(scene::Trajectory kind, const std::filesystem::path& folder,
-                                                         const scene::Scene& scene, const std::string& bookmark) {
+std::unique_ptr<TrajectoryWriter> make_trajectory_writer(scene::Trajectory kind,
+                                                         const std::filesystem::path& folder,
+                                                         const scene::Scene& scene,
+                                                         const std::string& bookmark) {
     for (const WriterEntry& entry : writer_list)
         if (entry.kind == kind) return entry.make(folder, scene, bookmark);
     fail(Exit::internal, "trajectory format {} has no writer", static_cast<int>(kind));

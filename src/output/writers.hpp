@@ -21,10 +21,11 @@ public:
 };
 
 // bookmark: empty for a new file, else what bookmark() returned before. Files: trajectory.dump (LAMMPS dump),
-// trajectory.xyz (extended XYZ), frames/NNNNNN.vtp with trajectory.pvd, trajectory.book (snapshot format 1.14).
+// trajectory.xyz (extended XYZ), frames/NNNNNN.vtp with trajectory.pvd, trajectory.book (snapshot
+// format 1.14).
 [[nodiscard]] std::unique_ptr<TrajectoryWriter> make_trajectory_writer(scene::Trajectory kind,
-                                                                      const std::filesystem::path& folder,
-                                                                      const scene::Scene& scene,
-                                                                      const std::string& bookmark = {});
+                                                                       const std::filesystem::path& folder,
+                                                                       const scene::Scene& scene,
+                                                                       const std::string& bookmark = {});
 
 } // namespace sandlane::output

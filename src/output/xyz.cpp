@@ -12,12 +12,11 @@ namespace {
 using analysis::Snapshot;
 using analysis::WallShape;
 
-// ASE accepts chemical symbols only, so a material is written as the element with its number; the comment line
-// gives the names in this order. X (no element) marks the discs of walls.
-constexpr std::array<const char*, 36> elements{"H",  "He", "Li", "Be", "B",  "C",  "N",  "O",  "F",
-                                               "Ne", "Na", "Mg", "Al", "Si", "P",  "S",  "Cl", "Ar",
-                                               "K",  "Ca", "Sc", "Ti", "V",  "Cr", "Mn", "Fe", "Co",
-                                               "Ni", "Cu", "Zn", "Ga", "Ge", "As", "Se", "Br", "Kr"};
+// ASE accepts chemical symbols only, so a material is written as the element with its number; the comment
+// line gives the names in this order. X (no element) marks the discs of walls.
+constexpr std::array<const char*, 36> elements{
+    "H", "He", "Li", "Be", "B", "C",  "N",  "O",  "F",  "Ne", "Na", "Mg", "Al", "Si", "P",  "S",  "Cl", "Ar",
+    "K", "Ca", "Sc", "Ti", "V", "Cr", "Mn", "Fe", "Co", "Ni", "Cu", "Zn", "Ga", "Ge", "As", "Se", "Br", "Kr"};
 
 class XyzWriter final : public SingleFileWriter {
 public:
@@ -42,12 +41,14 @@ void XyzWriter::append_comment(const Snapshot& s, std::string& text) const {
     const double none = 0;
     const double depth = half_depth(s);
     text += "Lattice=\"";
-    append_line(text, s.upper.x - s.lower.x, none, none, none, s.upper.y - s.lower.y, none, none, none, 2 * depth);
+    append_line(text, s.upper.x - s.lower.x, none, none, none, s.upper.y - s.lower.y, none, none, none,
+                2 * depth);
     text.back() = '"';
     text += " Origin=\"";
     append_line(text, s.lower.x, s.lower.y, -depth);
     text.back() = '"';
-    text += " Properties=species:S:1:pos:R:3:velo:R:3:id:I:1:material:I:1:radius:R:1:mass:R:1:omega:R:1:angle:R:1:"
+    text += " Properties=species:S:1:pos:R:3:velo:R:3:id:I:1:material:I:1:radius:R:1:mass:R:1:omega:R:1:"
+            "angle:R:1:"
             "pressure:R:1 Time=";
     append(text, s.time);
     text += " Step=";
