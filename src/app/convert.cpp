@@ -1,4 +1,5 @@
-// `sandlane convert` and `sandlane render`: between scenes, checkpoints, the book's 25-column files and pictures.
+// `sandlane convert` and `sandlane render`: between scenes, checkpoints, the book's 25-column files and
+// pictures.
 #include "app/prepare.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -20,7 +21,8 @@ bool is_toml(const std::filesystem::path& path) {
 md::Simulation load_state(const std::filesystem::path& path, const Common& common) {
     if (path.extension() != ".checkpoint") return prepare(scene::read_scene(path), common).simulation();
     const output::Checkpoint checkpoint = output::read_checkpoint(path);
-    md::Simulation simulation = prepare(scene::parse_scene(checkpoint.scene, path.string()), common).simulation();
+    md::Simulation simulation =
+        prepare(scene::parse_scene(checkpoint.scene, path.string()), common).simulation();
     simulation.restore(checkpoint.engine_state);
     return simulation;
 }
@@ -28,7 +30,9 @@ md::Simulation load_state(const std::filesystem::path& path, const Common& commo
 scene::BookRecord free_grain(const md::Simulation& sim, std::size_t i) {
     const md::State& state = sim.state();
     const double dt = sim.plan().dt;
-    const auto value = [&](int dof, int k) { return dof < state.dofs && k < state.order ? state.value(i, dof, k) : 0.0; };
+    const auto value = [&](int dof, int k) {
+        return dof < state.dofs && k < state.order ? state.value(i, dof, k) : 0.0;
+    };
     scene::BookRecord r;
     r.x = value(0, 0);
     r.y = value(1, 0);
@@ -72,7 +76,8 @@ scene::Book to_book(const md::Simulation& sim) {
         set_material(r, s.materials[static_cast<std::size_t>(sim.state().material[i])]);
         book.records.push_back(r);
     }
-    // Wall grains as fixed ones (type 1): the format has no parameters for motions. Analytic walls have no place in it.
+    // Wall grains as fixed ones (type 1): the format has no parameters for motions. Analytic walls have no
+    // place in it.
     for (const analysis::WallShape& w : sim.snapshot().walls) {
         if (w.kind != analysis::WallShape::Kind::disc) continue;
         scene::BookRecord r;
@@ -93,9 +98,12 @@ int convert(const std::filesystem::path& from, const std::filesystem::path& to) 
     const Common common;
     const bool from_book = !is_toml(from) && from.extension() != ".checkpoint";
     if (from_book && !is_toml(to))
-        fail(Exit::invalid_input, "convert: {} is a book file; it converts to a scene, so the target must end in .toml", from.string());
+        fail(Exit::invalid_input,
+             "convert: {} is a book file; it converts to a scene, so the target must end in .toml",
+             from.string());
     if (from_book)
-        write_file_atomically(to, scene::write_scene(scene::scene_from_book(scene::parse_book(read_file(from), from.string()), from.string())));
+        write_file_atomically(to, scene::write_scene(scene::scene_from_book(
+                                      scene::parse_book(read_file(from), from.string()), from.string())));
     else if (is_toml(to))
         write_file_atomically(to, scene::write_scene(load_state(from, common).scene()));
     else
@@ -103,7 +111,8 @@ int convert(const std::filesystem::path& from, const std::filesystem::path& to) 
     return 0;
 }
 
-int render(const std::filesystem::path& checkpoint, const std::filesystem::path& png, const std::string& colour, int width) {
+int render(const std::filesystem::path& checkpoint, const std::filesystem::path& png,
+           const std::string& colour, int width) {
     output::PictureStyle style;
     style.width = width;
     style.colour = colour == "pressure" ? scene::Colour::pressure

@@ -282,7 +282,8 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     const std::size_t useful = std::max<std::size_t>(1, (needs.grains + needs.poured) / grains_per_thread);
     if (threads.automatic && useful < static_cast<std::size_t>(threads.count)) {
         plan.threads = static_cast<int>(useful);
-        threads_reason = fmt::format("of {} allowed: {} grains per thread at least", threads.count, grains_per_thread);
+        threads_reason =
+            fmt::format("of {} allowed: {} grains per thread at least", threads.count, grains_per_thread);
     }
     plan.lower = scene.domain.lower;
     plan.upper = scene.domain.upper;

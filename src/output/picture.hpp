@@ -5,6 +5,7 @@
 #include "scene/scene.hpp"
 
 #include <filesystem>
+#include <string>
 
 namespace sandlane::output {
 
@@ -12,13 +13,17 @@ struct PictureStyle {
     scene::Colour colour = scene::Colour::speed;
     int width = 800;      // pixels; the height follows from the domain
     double scale_max = 0; // upper end of the colour scale; 0: largest value of the snapshot, rounded up
+<<<<<<< HEAD
+=======
+    std::string pressure_unit = "Pa"; // "N/m" for body = disc
+>>>>>>> output
 };
 
 void write_picture(const std::filesystem::path& path, const analysis::Snapshot& snapshot,
                    const PictureStyle& style);
 
-// Joins pictures/*.png to movie.mp4 when ffmpeg is installed; otherwise returns the command a user can type.
-// Returns an empty string on success.
-std::string write_movie(const std::filesystem::path& folder);
+// Joins pictures/000000.png, 000001.png, ... to movie.mp4 when ffmpeg is installed. Returns an empty string
+// on success, otherwise the command a user can type.
+[[nodiscard]] std::string write_movie(const std::filesystem::path& folder);
 
 } // namespace sandlane::output

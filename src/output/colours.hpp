@@ -1,0 +1,38 @@
+// Colours of quantities: which number of a grain is shown, its label and unit, and a colour map of even
+// perceived steps from dark violet-blue to light yellow.
+#pragma once
+
+#include "analysis/snapshot.hpp"
+#include "scene/scene.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace sandlane::output {
+
+struct Rgb {
+    float r = 0, g = 0, b = 0; // sRGB, 0 to 1
+};
+
+// 256 entries, index 0 for the lowest value.
+[[nodiscard]] const std::array<Rgb, 256>& colour_map();
+[[nodiscard]] inline Rgb map_colour(double unit) {
+    const double clamped = unit > 0 ? (unit < 1 ? unit : 1) : 0;
+    return colour_map()[static_cast<std::size_t>(clamped * 255 + 0.5)];
+}
+
+struct Quantity {
+    std::string_view name, unit;
+};
+[[nodiscard]] Quantity quantity(scene::Colour colour);
+
+// One value per grain, never negative: speed, contact pressure (tension counts as 0), size of the spin,
+// radius.
+[[nodiscard]] std::vector<double> colour_values(const analysis::Snapshot& snapshot, scene::Colour colour);
+
+// The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten that is not below `value` (> 0).
+[[nodiscard]] double round_up(double value);
+
+} // namespace sandlane::output

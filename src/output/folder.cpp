@@ -1,0 +1,98 @@
+#include "output/folder.hpp"
+
+#include "core/error.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace sandlane::output {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* way_out = "Choose another folder with --out or remove it; --resume FILE continues it.";
+
+void make_folder(const fs::path& path) {
+    std::error_code status;
+    fs::create_directories(path, status);
+    if (!status && !fs::is_directory(path, status) && !status)
+        status = std::make_error_code(std::errc::not_a_directory);
+    if (status)
+        fail(Exit::io, "{}: cannot create the folder: {}. Choose another one with --out.", path.string(),
+             status.message());
+}
+
+std::string owner(int file) {
+    std::array<char, 200> text{};
+    const ssize_t length = ::pread(file, text.data(), text.size(), 0);
+    std::string name(text.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
+    while (!name.empty() && name.back() == '\n') name.pop_back();
+    return name.empty() ? "another process" : name;
+}
+
+std::string this_process() {
+    std::array<char, 100> host{};
+    if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
+    return fmt::format("process {} on {}\n", ::getpid(), host[0] == '\0' ? "this machine" : host.data());
+}
+
+} // namespace
+
+RunFolder::RunFolder(fs::path path, Start start) : path_(std::move(path)) {
+    make_folder(path_);
+    try {
+        lock(start);
+    } catch (...) {
+        if (lock_ >= 0) ::close(lock_);
+        throw;
+    }
+}
+
+RunFolder::RunFolder(RunFolder&& other) noexcept
+    : path_(std::move(other.path_)), lock_(std::exchange(other.lock_, -1)) {}
+
+RunFolder& RunFolder::operator=(RunFolder&& other) noexcept {
+    std::swap(path_, other.path_);
+    std::swap(lock_, other.lock_);
+    return *this;
+}
+
+RunFolder::~RunFolder() {
+    if (lock_ >= 0) ::close(lock_); // releases the flock; the file stays and marks the folder as used
+}
+
+// Creation with O_EXCL decides between two runs that start at the same time.
+void RunFolder::lock(Start start) {
+    const fs::path file = path_ / ".lock";
+    lock_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const bool created = lock_ >= 0;
+    if (!created && errno == EEXIST) lock_ = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+    if (lock_ < 0) fail(Exit::io, "{}: cannot create the file: {}", file.string(), std::strerror(errno));
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+        if (errno == EWOULDBLOCK)
+            fail(Exit::invalid_input, "{}: {} is writing a run here. {}", path_.string(), owner(lock_),
+                 way_out);
+        fail(Exit::io, "{}: cannot lock the file: {}", file.string(), std::strerror(errno));
+    }
+    if (!created && start == Start::fresh)
+        fail(Exit::invalid_input, "{}: already holds a run, by {}. {}", path_.string(), owner(lock_),
+             way_out);
+    const std::string text = this_process();
+    if (::ftruncate(lock_, 0) != 0 || ::pwrite(lock_, text.data(), text.size(), 0) < 0)
+        fail(Exit::io, "{}: cannot write: {}", file.string(), std::strerror(errno));
+}
+
+fs::path RunFolder::subfolder(const char* name) const {
+    make_folder(path_ / name);
+    return path_ / name;
+}
+
+} // namespace sandlane::output

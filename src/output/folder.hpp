@@ -1,0 +1,35 @@
+// The folder of a run. A lock file in it tells other runs that the folder is taken: while the run goes on it
+// is held by flock, afterwards its presence says that results lie here.
+#pragma once
+
+#include <filesystem>
+
+namespace sandlane::output {
+
+class RunFolder {
+public:
+    enum class Start { fresh, resume };
+
+    // fresh: creates the folder and refuses one that holds a running or finished run (Error(invalid_input)).
+    // resume: goes on in the folder of an earlier run, refuses a running one.
+    // Throws Error(io) naming the path if the folder cannot be created or written.
+    RunFolder(std::filesystem::path path, Start start);
+    RunFolder(RunFolder&& other) noexcept;
+    RunFolder& operator=(RunFolder&& other) noexcept;
+    ~RunFolder();
+
+    [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+    // Subfolders, created on first use.
+    [[nodiscard]] std::filesystem::path pictures() const { return subfolder("pictures"); }
+    [[nodiscard]] std::filesystem::path frames() const { return subfolder("frames"); }
+    [[nodiscard]] std::filesystem::path checkpoints() const { return subfolder("checkpoints"); }
+
+private:
+    [[nodiscard]] std::filesystem::path subfolder(const char* name) const;
+    void lock(Start start);
+
+    std::filesystem::path path_;
+    int lock_ = -1; // file descriptor
+};
+
+} // namespace sandlane::output

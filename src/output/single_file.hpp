@@ -1,0 +1,32 @@
+// Common part of the formats that keep all frames in one growing text file: a subclass formats one frame.
+#pragma once
+
+#include "core/file.hpp"
+#include "output/writers.hpp"
+
+namespace sandlane::output {
+
+class SingleFileWriter : public TrajectoryWriter {
+public:
+    void write(const analysis::Snapshot& snapshot) final;
+    std::string bookmark() final; // the length of the file
+
+protected:
+    SingleFileWriter(const std::filesystem::path& path, const std::string& bookmark);
+    virtual void format(const analysis::Snapshot& snapshot, std::string& text) const = 0;
+
+private:
+    OutputFile file_;
+    std::string text_; // kept between frames so that its memory is reused
+};
+
+// -1 for an empty bookmark, else the length it holds. Throws Error(io) naming the path.
+[[nodiscard]] std::int64_t length_in(const std::string& bookmark, const std::filesystem::path& path);
+
+// Wall discs stand beside the grains in some formats; their ids start here, above any grain's.
+inline constexpr std::int64_t first_wall_id = 1'000'000'000;
+
+// Half the extent given to the plane in formats that know only boxes: the largest radius.
+[[nodiscard]] double half_depth(const analysis::Snapshot& snapshot);
+
+} // namespace sandlane::output
