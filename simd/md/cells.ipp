@@ -22,7 +22,7 @@ SANDLANE_INLINE void sweep_run(const CellView& cells, const PairView& view, Pair
         if (own >= 0 && own < width) hits &= ~(1u << own);
         const std::int32_t i = cells.owner[self];
         for (int n = 0; n < width; ++n) pairs.i[pairs.count + n] = i;
-        Compress<Arch>::template apply<width>(cells.owner + first, hits, pairs.j + pairs.count);
+        Integers<Arch, width>(cells.owner + first).compress(hits, pairs.j + pairs.count);
         pairs.count += __builtin_popcount(hits);
         if (pairs.count >= pair_chunk) pairs.evaluate_full(view, kernel, Target::first);
     }

@@ -33,6 +33,7 @@ SANDLANE_INLINE std::int64_t sweep_row(const LatticeView& lattice, const PairVie
         if (centres == 0) continue;
         occupied += __builtin_popcount(centres);
         const G y = G::load(ys + site);
+        const Integers<Arch, site_group> own(owner + site);
         G radius;
         if constexpr (many_radii) radius = G::load(radii + site);
         for (int k = k_begin; k < k_end; ++k) {
@@ -47,8 +48,8 @@ SANDLANE_INLINE std::int64_t sweep_row(const LatticeView& lattice, const PairVie
             } else {
                 hits = less(square, uniform) & centres;
             }
-            Compress<Arch>::template apply<site_group>(owner + site, hits, pairs.i + count);
-            Compress<Arch>::template apply<site_group>(owner + partner, hits, pairs.j + count);
+            own.compress(hits, pairs.i + count);
+            Integers<Arch, site_group>(owner + partner).compress(hits, pairs.j + count);
             count += __builtin_popcount(hits);
         }
         if (count >= pair_chunk) {
