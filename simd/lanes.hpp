@@ -100,7 +100,6 @@ template <class A> SANDLANE_INLINE void store(double* to, const Block<A>& b) { /
 }
 
 // ---- bit masks: bit l of the result is lane l
-// -------------------------------------------------------------------
 
 template <class Arch> SANDLANE_INLINE unsigned register_bits(const xsimd::batch_bool<double, Arch>& m) {
     bool lanes[Block<Arch>::lanes];
@@ -139,7 +138,6 @@ template <class A> SANDLANE_INLINE double largest(const Block<A>& b) {
 }
 
 // ---- groups of sixteen floats for the distance stage of the lattice
-// ------------------------------------------------
 
 inline constexpr int group_width = 16;
 
@@ -202,7 +200,7 @@ template <class A> SANDLANE_INLINE unsigned less(const Group<A>& a, const Group<
 }
 
 // ---- compress: packs the 32-bit integers whose bit is set to the front
-// ------------------------------------------- Writes at least the chosen integers and at most `count`; the
+// Writes at least the chosen integers and at most `count`; the
 // caller advances by the number of bits. On the cores measured, compressing in a register and storing the
 // whole is 6 cycles where a compressing store costs 61.
 
@@ -267,7 +265,6 @@ template <int count> struct Integers<xsimd::avx2, count> {
 #endif
 
 // ---- transposes
-// ----------------------------------------------------------------------------------------------------
 
 // field[f] lane l = rows[l][f] for f < 4 of (j - i) and f >= 4 of (j + i): the combined records of eight
 // pairs.

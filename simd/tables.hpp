@@ -131,7 +131,6 @@ struct MdKernels {
 [[nodiscard]] const MdKernels& md_kernels(Isa isa);
 
 // ---- dispatch
-// -------------------------------------------------------------------------------------------------
 
 [[nodiscard]] std::string_view isa_name(Isa isa);
 [[nodiscard]] std::optional<Isa> isa_from_name(std::string_view name);

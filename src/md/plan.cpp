@@ -176,7 +176,6 @@ Derived derive(const Scene& scene, const Needs& needs) {
 }
 
 // ---- the plan
-// ---------------------------------------------------------------------------------------------------
 
 namespace {
 

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "md/near_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +63,6 @@ void Simulation::start(const std::vector<scene::GrainState>& grains) {
 }
 
 // ---- the time step
-// ------------------------------------------------------------------------------------------------
 
 void Simulation::run(std::int64_t steps) {
     const std::int64_t end = step_ + steps;
@@ -241,7 +241,6 @@ simd::PairView Simulation::pair_view() {
 }
 
 // ---- between steps
-// ------------------------------------------------------------------------------------------------
 
 // Storage order: strips of eight rows, column by column, so that neighbours lie close in memory.
 void Simulation::sort_by_place() {
@@ -347,20 +346,33 @@ void Simulation::use_link_cells() {
 }
 
 void Simulation::check_overlap(double overlap) const {
-    if (overlap > needs_.radius_min) fail_overlap(overlap);
+    if (overlap > needs_.radius_min) fail_overlap();
 }
 
-void Simulation::fail_overlap(double overlap) const {
-    const Observables now = observe();
+// Names the two grains that overlap most at the predicted positions.
+void Simulation::fail_overlap() const {
+    const auto centre = [&](std::size_t i) {
+        const double* r = state_.record.data() + i * simd::record_fields;
+        return Vec{r[0], r[1], 0};
+    };
+    double worst = -infinity, distance = 0;
+    std::size_t first = 0, second = 0;
+    for_near_pairs(scene_, state_, centre, [&](std::size_t i, std::size_t j, Vec d) {
+        const double overlap = state_.radius[i] + state_.radius[j] - norm(d);
+        if (overlap <= worst) return;
+        worst = overlap;
+        distance = norm(d);
+        first = std::min(state_.id[i], state_.id[j]) == state_.id[i] ? i : j;
+        second = first == i ? j : i;
+    });
     fail(Exit::unstable,
-         "step {}, t = {:.6g} s: two grains overlap by {:.4g} m, more than R_min = {:.4g} m (largest overlap "
-         "of the last "
-         "complete step: {:.3g} R). The material is too soft for this load, or the time step too large.",
-         step_, time(), overlap, needs_.radius_min, now.largest_overlap);
+         "step {}, t = {:.6g} s: grains {} and {} overlap by {:.4g} m, their centres are {:.4g} m apart "
+         "(allowed: R_min = {:.4g} m). The material is too soft for this load, or the time step too large: "
+         "raise its stiffness or lower md.dt.",
+         step_, time(), state_.id[first], state_.id[second], worst, distance, needs_.radius_min);
 }
 
 // ---- views of the state
-// -------------------------------------------------------------------------------------------
 
 Observables Simulation::observe() const {
     Walls now = walls_;

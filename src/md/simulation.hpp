@@ -64,7 +64,7 @@ private:
     void compute_forces();
     void handle_outside();
     void use_link_cells();
-    [[noreturn]] void fail_overlap(double overlap) const;
+    [[noreturn]] void fail_overlap() const;
     void check_overlap(double overlap) const;
     [[nodiscard]] simd::MotionView motion_view();
     [[nodiscard]] simd::PairView pair_view();

@@ -87,7 +87,7 @@ private:
     void rebuild(const State& state);
     void add_wall(const scene::Scene& scene, std::size_t index);
     void add_chain(const std::vector<Vec>& points, bool closed, WallElement prototype);
-    void add_row(const scene::Wall& wall, WallElement prototype);
+    void add_grains(const scene::Wall& wall, WallElement prototype);
 
     std::vector<WallElement> elements_, reference_;
     std::vector<scene::Motion> motions_;
