@@ -124,7 +124,7 @@ struct MdKernels {
     LatticeKernel lattice_full[2]; // [many radii]
     LatticeKernel lattice_half[2];
     CellKernel cells;
-    MotionKernel predict[3][2], correct[3][2], advance[3][2]; // [order - 4][spin]
+    MotionKernel predict[4][2], correct[4][2], advance[4][2]; // [order - 3][spin]
     BinKernel bin;
 };
 

@@ -65,7 +65,8 @@ std::string describe(const scene::Scene& scene, const Needs& needs, const Derive
         plan.neighbours == scene::NeighbourMethod::lattice_half)
         line("lattice", fmt::format("{} x {} sites of {:.4g} x {:.4g} m, mask {}x{}", plan.columns, plan.rows,
                                     plan.site_x, plan.site_y, 2 * plan.reach + 1, 2 * plan.reach + 1));
-    line("integrator", fmt::format("Gear predictor-corrector, {} values", plan.order));
+    line("integrator", plan.order == 3 ? std::string("velocity Verlet")
+                                       : fmt::format("Gear predictor-corrector, {} values", plan.order));
     for (const std::string& reason : plan.chosen) text += "  " + reason + "\n";
     text += "\nSkipped, because the scene does not need it\n";
     for (const std::string& reason : plan.skipped) text += "  " + reason + "\n";

@@ -258,9 +258,9 @@ void bin_sites(const BinView& view, std::int64_t begin, std::int64_t end) {
 }
 
 template <int order, bool spin> void fill_motion(MdKernels& t) {
-    t.predict[order - 4][spin] = gear_step<order, spin, false, true>;
-    t.correct[order - 4][spin] = gear_step<order, spin, true, false>;
-    t.advance[order - 4][spin] = gear_step<order, spin, true, true>;
+    t.predict[order - 3][spin] = gear_step<order, spin, false, true>;
+    t.correct[order - 3][spin] = gear_step<order, spin, true, false>;
+    t.advance[order - 3][spin] = gear_step<order, spin, true, true>;
 }
 
 template <class Normal> void fill_pairs(PairKernel (&t)[2][2]) {
@@ -278,6 +278,8 @@ MdKernels make_table() {
     t.lattice_full[0] = t.lattice_full[1] = lattice_full;
     t.lattice_half[0] = t.lattice_half[1] = lattice_half;
     t.cells = cells_full;
+    fill_motion<3, false>(t);
+    fill_motion<3, true>(t);
     fill_motion<4, false>(t);
     fill_motion<4, true>(t);
     fill_motion<5, false>(t);

@@ -97,7 +97,7 @@ std::int64_t Simulation::next_stop(std::int64_t end) const {
 
 void Simulation::integrate(bool correct, bool predict) {
     const auto& table = correct ? (predict ? kernels_->advance : kernels_->correct) : kernels_->predict;
-    const simd::MotionKernel kernel = table[plan_.order - 4][plan_.spin ? 1 : 0];
+    const simd::MotionKernel kernel = table[plan_.order - 3][plan_.spin ? 1 : 0];
     const simd::MotionView view = motion_view();
     const std::size_t n = state_.size();
     const bool on_lattice = predict && is_lattice(plan_.neighbours);

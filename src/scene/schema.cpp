@@ -258,8 +258,8 @@ const Table<Md>& md_table() {
         Table<Md>("Force-based molecular dynamics.")
             .choice("normal", &Md::normal, {"linear-dashpot", "viscoelastic"}, "normal force")
             .choice("tangential", &Md::tangential, {"none", "haff-werner"}, "tangential force")
-            .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6"},
-                    "Gear predictor-corrector with 4, 5 or 6 values")
+            .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6", "velocity-verlet"},
+                    "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet")
             .choice("neighbours", &Md::neighbours,
                     {"auto", "brute-force", "link-cells", "lattice", "lattice-half"}, "pair finding")
             .number("dt", &Md::dt, Unit::time, not_negative(),
