@@ -31,7 +31,7 @@ void step(benchmark::State& state, bench::Setup setup, simd::Isa isa, int thread
 }
 
 std::string name_of(const bench::Setup& s, simd::Isa isa, int threads) {
-    static const char* methods[] = {"auto", "brute", "cells", "lattice", "half"};
+    static const char* methods[] = {"auto", "brute", "cells", "lattice", "half", "verlet"};
     return fmt::format("md/{}/{}{}{}/phi={}/N={}/{}/threads={}", methods[static_cast<int>(s.neighbours)],
                        s.normal == scene::NormalLaw::viscoelastic ? "hertz" : "linear",
                        s.friction ? "+friction" : "", s.equal_radii ? "+equal" : "", s.packing_fraction,
@@ -48,8 +48,8 @@ void add(const bench::Setup& setup, simd::Isa isa, int threads) {
 void add_all() {
     for (const std::size_t n : {1000U, 10000U, 100000U, 1000000U})
         for (const double phi : {0.2, 0.5, 0.82})
-            for (const auto method :
-                 {NeighbourMethod::lattice, NeighbourMethod::lattice_half, NeighbourMethod::link_cells})
+            for (const auto method : {NeighbourMethod::lattice, NeighbourMethod::lattice_half,
+                                      NeighbourMethod::link_cells, NeighbourMethod::verlet})
                 for (const auto normal : {scene::NormalLaw::linear_dashpot, scene::NormalLaw::viscoelastic})
                     for (const bool friction : {true, false})
                         for (const simd::Isa isa : simd::available_isas())

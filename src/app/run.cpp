@@ -43,7 +43,7 @@ struct Timing {
 
 std::string summary_json(const md::Simulation& sim, const Timing& t, const char* status) {
     const md::Plan& plan = sim.plan();
-    static const char* methods[] = {"auto", "brute-force", "link-cells", "lattice", "lattice-half"};
+    static const char* methods[] = {"auto", "brute-force", "link-cells", "lattice", "lattice-half", "verlet"};
     return fmt::format(
         "{{\"status\": \"{}\", \"steps\": {}, \"step\": {}, \"time\": {}, \"particles\": {}, "
         "\"wall_seconds\": {:.6g}, "

@@ -21,6 +21,8 @@ const char* method_name(scene::NeighbourMethod method) {
         return "lattice, full mask";
     case scene::NeighbourMethod::lattice_half:
         return "lattice, half mask";
+    case scene::NeighbourMethod::verlet:
+        return "Verlet lists, tiles of 1024 grains, forces and motion in one pass";
     }
     return "";
 }

@@ -261,7 +261,8 @@ const Table<Md>& md_table() {
             .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6", "velocity-verlet"},
                     "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet")
             .choice("neighbours", &Md::neighbours,
-                    {"auto", "brute-force", "link-cells", "lattice", "lattice-half"}, "pair finding")
+                    {"auto", "brute-force", "link-cells", "lattice", "lattice-half", "verlet"},
+                    "pair finding")
             .number("dt", &Md::dt, Unit::time, not_negative(),
                     "time step; 0: chosen from the stiffest contact (t_c/50)")
             .number("duration", &Md::duration, Unit::time, not_negative(), "simulated time")
