@@ -32,9 +32,10 @@ void step(benchmark::State& state, bench::Setup setup, simd::Isa isa, int thread
 
 std::string name_of(const bench::Setup& s, simd::Isa isa, int threads) {
     static const char* methods[] = {"auto", "brute", "cells", "lattice", "half", "verlet"};
-    return fmt::format("md/{}/{}{}{}/phi={}/N={}/{}/threads={}", methods[static_cast<int>(s.neighbours)],
+    return fmt::format("md/{}/{}{}{}{}/phi={}/N={}/{}/threads={}", methods[static_cast<int>(s.neighbours)],
                        s.normal == scene::NormalLaw::viscoelastic ? "hertz" : "linear",
-                       s.friction ? "+friction" : "", s.equal_radii ? "+equal" : "", s.packing_fraction,
+                       s.friction ? "+friction" : "", s.equal_radii ? "+equal" : "",
+                       s.integrator == scene::Integrator::velocity_verlet ? "+vv" : "", s.packing_fraction,
                        s.grains, simd::isa_name(isa), threads);
 }
 
@@ -56,6 +57,10 @@ void add_all() {
                             for (const int threads : {1, 2}) {
                                 if (threads > allowed_cpus()) continue;
                                 add({n, phi, normal, friction, false, method}, isa, threads);
+                                if (method == NeighbourMethod::verlet)
+                                    add({n, phi, normal, friction, false, method,
+                                         scene::Integrator::velocity_verlet},
+                                        isa, threads);
                             }
 }
 

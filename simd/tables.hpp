@@ -82,6 +82,12 @@ struct TileList {
 // Returns the largest overlap [m] (or `largest`).
 using TileKernel = double (*)(const PairView&, const TileList&, double* force, double largest);
 
+// Copies the pairs whose gap is below `skin`, in order; all four lists have room for eight pairs more than
+// `count`.
+using NearKernel = std::int32_t (*)(const PairView&, const std::int32_t* i, const std::int32_t* j,
+                                    std::int32_t count, double skin, std::int32_t* near_i,
+                                    std::int32_t* near_j);
+
 // Link cells: particles counting-sorted by cell. One cell in a direction means "all particles" in that
 // direction.
 struct CellView {
@@ -143,6 +149,7 @@ struct MdKernels {
     LatticeKernel lattice_half[2];
     CellKernel cells;
     CandidateKernel candidates;
+    NearKernel near_pairs;
     TileKernel tile[2][2][2];                                 // [normal law][tangential law][many materials]
     MotionKernel predict[4][2], correct[4][2], advance[4][2]; // [order - 3][spin]
     BinKernel bin;

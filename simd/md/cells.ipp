@@ -73,6 +73,26 @@ std::int32_t cell_candidates(const CellView& cells, const PairView& view, std::i
 }
 
 template <class Arch>
+std::int32_t near_pairs(const PairView& view, const std::int32_t* i, const std::int32_t* j,
+                        std::int32_t count, double skin, std::int32_t* near_i, std::int32_t* near_j) {
+    using R = Block<Arch>;
+    std::int32_t found = 0;
+    for (std::int32_t n = 0; n < count; n += width) {
+        R field[record_fields];
+        CombinePairs<Arch>::apply(view.records, i + n, j + n, field);
+        const R dx = minimum_image(field[0], view.half_x, view.period_x);
+        const R dy = minimum_image(field[1], view.half_y, view.period_y);
+        const R reach = field[5] + R(skin);
+        unsigned hits = bits(dx * dx + dy * dy < reach * reach);
+        if (count - n < width) hits &= (1u << (count - n)) - 1u;
+        Integers<Arch, width>(i + n).compress(hits, near_i + found);
+        Integers<Arch, width>(j + n).compress(hits, near_j + found);
+        found += __builtin_popcount(hits);
+    }
+    return found;
+}
+
+template <class Arch>
 SweepResult cells_full(const CellView& cells, const PairView& view, PairKernel kernel, std::int32_t row_begin,
                        std::int32_t row_end) {
     PairBuffer pairs;

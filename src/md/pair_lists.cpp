@@ -44,7 +44,7 @@ void PairLists::update(const State& state, const simd::PairView& pairs, const si
                        int threads) {
     if (!stale_ && near_budget_ >= 0) return;
     if (stale_ || !outer_valid(state, pairs, threads)) build(state, pairs, kernels, threads);
-    refresh(state, pairs, threads);
+    refresh(pairs, kernels, threads);
 }
 
 // Two grains that were a skin apart can have met when both moved by half of it. The near list adds its own
@@ -98,32 +98,23 @@ void PairLists::build_tile(std::size_t index, const State& state, const simd::Pa
         t.j.insert(t.j.end(), found.begin(), last);
         t.i.resize(t.j.size(), i);
     }
+    t.count = static_cast<std::int32_t>(t.i.size());
+    for (std::vector<std::int32_t>* list : {&t.i, &t.j}) list->resize(list->size() + block_width, begin);
+    for (std::vector<std::int32_t>* list : {&t.near_i, &t.near_j}) list->resize(t.i.size());
 }
 
-void PairLists::refresh(const State& state, const simd::PairView& pairs, int threads) {
+void PairLists::refresh(const simd::PairView& pairs, const simd::MdKernels& kernels, int threads) {
     ++refreshes_;
     near_budget_ = 0.5 * safety * near_skin_;
     for_tiles(tiles_.size(), threads, [&](std::size_t index) {
         Tile& t = tiles_[index];
-        t.near_i.clear();
-        t.near_j.clear();
-        for (std::size_t n = 0; n < t.i.size(); ++n) {
-            const double* a = pairs.records + static_cast<std::size_t>(t.i[n]) * simd::record_fields;
-            const double* b = pairs.records + static_cast<std::size_t>(t.j[n]) * simd::record_fields;
-            const double dx = nearest(b[0] - a[0], pairs.half_x, pairs.period_x);
-            const double dy = nearest(b[1] - a[1], pairs.half_y, pairs.period_y);
-            const double reach = a[5] + b[5] + near_skin_;
-            if (dx * dx + dy * dy >= reach * reach) continue;
-            t.near_i.push_back(t.i[n]);
-            t.near_j.push_back(t.j[n]);
-        }
-        t.near_count = static_cast<std::int32_t>(t.near_i.size());
-        // A kernel loads whole blocks.
-        const auto any = static_cast<std::int32_t>(index * tile_size);
-        t.near_i.insert(t.near_i.end(), block_width, any);
-        t.near_j.insert(t.near_j.end(), block_width, any);
+        t.near_count = kernels.near_pairs(pairs, t.i.data(), t.j.data(), t.count, near_skin_, t.near_i.data(),
+                                          t.near_j.data());
+        // The tile kernel loads whole blocks of existing grains.
+        const auto end = static_cast<std::size_t>(t.near_count);
+        std::fill_n(t.near_i.data() + end, block_width, static_cast<std::int32_t>(index * tile_size));
+        std::fill_n(t.near_j.data() + end, block_width, static_cast<std::int32_t>(index * tile_size));
     });
-    static_cast<void>(state);
 }
 
 } // namespace sandlane::md

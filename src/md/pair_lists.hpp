@@ -32,17 +32,17 @@ public:
 
 private:
     struct Tile {
-        std::vector<std::int32_t> i, j;           // pairs of gap below the skin
-        std::vector<std::int32_t> near_i, near_j; // those of gap below the near skin, padded by a block
-        std::int32_t near_count = 0;
-        double largest_square = 0;                // of the displacements since the last build
+        // Pairs of gap below the skin, and those of gap below the near skin; each padded by a block.
+        std::vector<std::int32_t> i, j, near_i, near_j;
+        std::int32_t count = 0, near_count = 0;
+        double largest_square = 0; // of the displacements since the last build
     };
 
     [[nodiscard]] bool outer_valid(const State& state, const simd::PairView& pairs, int threads);
     void build(const State& state, const simd::PairView& pairs, const simd::MdKernels& kernels, int threads);
     void build_tile(std::size_t index, const State& state, const simd::PairView& pairs,
                     const simd::MdKernels& kernels);
-    void refresh(const State& state, const simd::PairView& pairs, int threads);
+    void refresh(const simd::PairView& pairs, const simd::MdKernels& kernels, int threads);
 
     LinkCells cells_;
     std::vector<Tile> tiles_;

@@ -206,6 +206,21 @@ std::int32_t cell_candidates(const CellView& cells, const PairView& view, std::i
     return count;
 }
 
+std::int32_t near_pairs(const PairView& view, const std::int32_t* i, const std::int32_t* j,
+                        std::int32_t count, double skin, std::int32_t* near_i, std::int32_t* near_j) {
+    std::int32_t found = 0;
+    for (std::int32_t n = 0; n < count; ++n) {
+        const Particle a = particle(view, i[n]), b = particle(view, j[n]);
+        const double dx = nearest_image(b.x - a.x, view.half_x, view.period_x);
+        const double dy = nearest_image(b.y - a.y, view.half_y, view.period_y);
+        const double reach = b.radius + a.radius + skin;
+        if (!(dx * dx + dy * dy < reach * reach)) continue;
+        near_i[found] = i[n];
+        near_j[found++] = j[n];
+    }
+    return found;
+}
+
 template <class Normal, class Tangential, bool many_materials>
 double tile_forces(const PairView& view, const TileList& list, double* force, double largest) {
     for (std::int32_t n = 0; n < list.count; ++n) {
@@ -332,6 +347,7 @@ MdKernels make_table() {
     t.lattice_half[0] = t.lattice_half[1] = lattice_half;
     t.cells = cells_full;
     t.candidates = cell_candidates;
+    t.near_pairs = near_pairs;
     fill_motion<3, false>(t);
     fill_motion<3, true>(t);
     fill_motion<4, false>(t);
