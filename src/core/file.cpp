@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail_io(const char* action, const fs::path& path, int cause) {
-    fail(Exit::io, "{}: cannot {}: {}. Choose another folder with --out, or free space and repeat.",
-         path.string(), action, std::strerror(cause));
+    fail(Exit::io, "{}: cannot {}: {}. Choose another place, or free space there.", path.string(), action,
+         std::strerror(cause));
 }
 
 } // namespace
