@@ -8,7 +8,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 namespace sandlane::scene {
 
@@ -160,8 +159,7 @@ std::vector<GrainState> free_grains(const Book& book, const GrainState& prototyp
 
 std::vector<GrainState> grains_of_file(const Scene& scene, const Grains& grains,
                                        const GrainState& prototype) {
-    const std::filesystem::path path = std::filesystem::path(scene.folder) / grains.file;
-    const std::string text = read_file(path), file = path.string();
+    const std::string &file = grains.file, text = read_file(file);
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     const bool csv = first == std::string::npos || std::isalpha(static_cast<unsigned char>(text[first])) != 0;
     if (csv) return CsvReader(scene, grains, prototype, file).read(text);

@@ -13,6 +13,10 @@ namespace sandlane::scene {
 [[nodiscard]] std::vector<GrainState> population(const Scene& scene, std::size_t index,
                                                  const std::vector<GrainState>& placed);
 
+// How many grains the population asks for, as far as the scene tells (a file: 0); with a packing fraction,
+// about.
+[[nodiscard]] double expected_grains(const Scene& scene, std::size_t index);
+
 // "grains[2] "beads"" for messages.
 [[nodiscard]] std::string population_name(const Scene& scene, std::size_t index);
 

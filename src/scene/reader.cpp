@@ -11,7 +11,6 @@ namespace sandlane::scene {
 namespace {
 
 // ---- overrides
-// ----------------------------------------------------------------------------------------------------
 
 std::vector<std::string> split_path(const std::string& path) {
     std::vector<std::string> parts(1);
@@ -33,13 +32,14 @@ void set_origin(Value& value, const std::string& origin) {
 
 // The right-hand side is TOML; a bare word that is not TOML is a text.
 Value override_value(const std::string& text, const std::string& origin) {
-    Value value;
+    Value table;
     try {
-        value = parse_toml("value = " + text + "\n", origin).members.at(0).second;
+        table = parse_toml("value = " + text + "\n", origin);
     } catch (const Error&) {
-        value.kind = Value::Kind::text;
-        value.text = text;
+        table = {};
     }
+    if (table.members.size() != 1) table = parse_toml("value = " + scene::quoted(text) + "\n", origin);
+    Value value = std::move(table.members.front().second);
     set_origin(value, origin);
     return value;
 }
@@ -73,7 +73,6 @@ void apply_override(Value& root, const std::string& text) {
 }
 
 // ---- from the tree to the structs
-// -----------------------------------------------------------------------------------
 
 template <class T>
 void read_list(std::vector<T>& list, const Table<T>& table, const Value& value, const std::string& name) {
@@ -138,7 +137,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const Override
 
 Scene read_scene(const std::filesystem::path& path, const Overrides& overrides) {
     Scene scene = parse_scene(read_file(path), path.string(), overrides);
-    scene.folder = path.parent_path().string();
+    for (Grains& g : scene.grains) // a checkpoint is continued from another folder
+        if (!g.file.empty())
+            g.file = std::filesystem::absolute(path.parent_path() / g.file).lexically_normal().string();
     return scene;
 }
 
