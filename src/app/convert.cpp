@@ -9,6 +9,7 @@
 #include "scene/schema.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace sandlane::app {
 
@@ -25,6 +26,15 @@ md::Simulation load_state(const fs::path& path) {
     const Common common;
     if (is_toml(path)) return prepare(scene::read_scene(path), common).simulation();
     return prepare_checkpoint(path, common).simulation();
+}
+
+// The storage order of a run follows the places of the grains.
+std::vector<std::size_t> in_order_of_ids(const md::State& state) {
+    std::vector<std::size_t> order(state.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return state.id[a] < state.id[b]; });
+    return order;
 }
 
 scene::BookRecord free_grain(const md::Simulation& sim, std::size_t i) {
@@ -85,7 +95,7 @@ scene::Book to_book(const md::Simulation& sim) {
     book.header.y_0 = s.domain.lower.y;
     book.header.lx = s.domain.upper.x - s.domain.lower.x;
     book.header.ly = s.domain.upper.y - s.domain.lower.y;
-    for (std::size_t i = 0; i < sim.state().size(); ++i) {
+    for (const std::size_t i : in_order_of_ids(sim.state())) {
         scene::BookRecord r = free_grain(sim, i);
         set_material(r, s.materials[static_cast<std::size_t>(sim.state().material[i])]);
         book.records.push_back(r);

@@ -98,9 +98,9 @@ RunOutputs::RunOutputs(const fs::path& folder, const md::Simulation& sim, std::s
                        const output::Checkpoint* resume)
     : scene_(sim.scene()),
       folder_(folder, resume != nullptr ? output::RunFolder::Start::resume : output::RunFolder::Start::fresh),
-      plan_text_(std::move(plan_text)) {
+      plan_text_(std::move(plan_text)), dt_(sim.plan().dt) {
     const scene::Output& o = scene_.output;
-    const double dt = sim.plan().dt, duration = scene_.md.duration;
+    const double dt = dt_, duration = scene_.md.duration;
     log_steps_ = interval(o.log_every, duration, 200, dt);
     picture_steps_ = interval(o.picture_every, duration, 20, dt);
     trajectory_steps_ = interval(o.trajectory_every, duration, 100, dt);
@@ -125,11 +125,13 @@ void RunOutputs::open_files(const output::Checkpoint* resume) {
     log_ = std::make_unique<output::LogWriter>(folder_.path() / "log.csv", log_columns(), bookmark("log"));
     history_.columns = log_columns();
     if (resume != nullptr) history_ = output::read_log(folder_.path() / "log.csv");
+    scene::Scene resolved = scene_;
+    resolved.md.dt = dt_;
     if (trajectory_steps_ != never)
         for (const scene::Trajectory kind : o.trajectory) {
             const std::string name = trajectory_name(kind);
             trajectories_.emplace_back(
-                name, output::make_trajectory_writer(kind, folder_.path(), scene_, bookmark(name)));
+                name, output::make_trajectory_writer(kind, folder_.path(), resolved, bookmark(name)));
         }
     if (!bookmark("pictures").empty()) pictures_ = std::stoll(bookmark("pictures"));
 }

@@ -45,6 +45,7 @@ private:
     scene::Scene scene_;
     output::RunFolder folder_;
     std::string plan_text_;
+    double dt_; // s
     std::unique_ptr<output::LogWriter> log_;
     analysis::Log history_;
     std::vector<std::pair<std::string, std::unique_ptr<output::TrajectoryWriter>>> trajectories_;

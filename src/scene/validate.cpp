@@ -81,8 +81,10 @@ struct Validator {
         if (g.kind == GrainKind::pour && !(g.rate > 0))
             reject("{}.rate: {} must be above 0 grains per second", path, g.rate);
         if (g.kind == GrainKind::file && g.file.empty()) reject("{}.file: is missing", path);
-        if (g.upper.x < g.lower.x || g.upper.y < g.lower.y)
-            if (g.kind != GrainKind::lattice) reject("{}: upper must not lie below lower", path);
+        const bool in_region = g.kind == GrainKind::random || g.kind == GrainKind::pour;
+        if (in_region && (g.upper.x < g.lower.x || g.upper.y < g.lower.y))
+            reject("{}.upper: [{}, {}] must not lie below lower = [{}, {}]", path, g.upper.x, g.upper.y,
+                   g.lower.x, g.lower.y);
     }
 
     void need_points(const Wall& w, const std::string& path, std::size_t least) const {
