@@ -1,6 +1,7 @@
 #include "scene/population.hpp"
 
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "core/rng.hpp"
 #include "scene/packing.hpp"
 #include "scene/radius_law.hpp"
@@ -150,7 +151,8 @@ private:
     }
 
     [[nodiscard]] std::vector<GrainState> file() const {
-        std::vector<GrainState> grains = grains_of_file(scene_, grains_, prototype_);
+        std::vector<GrainState> grains =
+            parse_grains(read_file(grains_.file), grains_.file, scene_, grains_, prototype_);
         for (std::size_t i = 0; i < grains.size(); ++i)
             if (grains[i].radius == 0) grains[i].radius = radius(i);
         return grains;

@@ -21,8 +21,10 @@ namespace sandlane::scene {
 [[nodiscard]] std::string population_name(const Scene& scene, std::size_t index);
 
 // Grains of a file: CSV with a header line of column names, or free grains of the book's 25-column format.
-// Columns that the file lacks are left at what `prototype` says.
-[[nodiscard]] std::vector<GrainState> grains_of_file(const Scene& scene, const Grains& grains,
-                                                     const GrainState& prototype);
+// Columns that the file lacks are left at what `prototype` says. Throws Error(invalid_input) "file:line:
+// ...".
+[[nodiscard]] std::vector<GrainState> parse_grains(const std::string& text, const std::string& file,
+                                                   const Scene& scene, const Grains& grains,
+                                                   const GrainState& prototype);
 
 } // namespace sandlane::scene

@@ -39,7 +39,7 @@ Value override_value(const std::string& text, const std::string& origin) {
         table = {};
     }
     if (table.members.size() != 1) table = parse_toml("value = " + scene::quoted(text) + "\n", origin);
-    Value value = std::move(table.members.front().second);
+    Value value = std::move(table.members.front().value);
     set_origin(value, origin);
     return value;
 }
@@ -64,8 +64,8 @@ void apply_override(Value& root, const std::string& text) {
         if (at->kind != Value::Kind::table)
             fail(Exit::invalid_input, "{}: there is nothing below \"{}\"", origin, part);
         if (at->find(part) == nullptr) {
-            at->members.emplace_back(part, Value{});
-            at->members.back().second.origin = origin;
+            at->members.push_back({part, Value{}});
+            at->members.back().value.origin = origin;
         }
         at = at->find(part);
     }
@@ -104,7 +104,7 @@ Scene scene_from(const Value& root) {
         else if (key == "output")
             output_table().read(scene.output, value, key);
         else
-            rest.members.emplace_back(key, value);
+            rest.members.push_back({key, value});
     }
     std::vector<std::string> known = {"domain", "materials", "pairs", "grains",
                                       "walls",  "motions",   "md",    "output"};
