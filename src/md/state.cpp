@@ -103,7 +103,7 @@ void State::adopt(const Plan& plan) {
     const bool whole = gear.size() == padded(n) * fields && inverse_radius.size() == n && mass.size() == n &&
                        inverse_mass.size() == n && material.size() == n && image_x.size() == n &&
                        image_y.size() == n && id.size() == n && spin_factor.size() == (spin() ? n : 0);
-    if (!whole) fail(Exit::io, "checkpoint: columns of unequal length");
+    if (!whole) fail(Exit::io, "its columns have unequal length");
     parking_ = plan.lower;
     resize(n);
     force.fill(0.0);

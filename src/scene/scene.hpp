@@ -166,7 +166,6 @@ struct Scene {
     std::vector<Motion> motions;
     Md md;
     Output output;
-    std::string folder; // where the scene file lies; relative file names start here
 };
 
 } // namespace sandlane::scene
