@@ -119,7 +119,9 @@ int render(const std::filesystem::path& checkpoint, const std::filesystem::path&
                    : colour == "spin"   ? scene::Colour::spin
                    : colour == "radius" ? scene::Colour::radius
                                         : scene::Colour::speed;
-    output::write_picture(png, load_state(checkpoint, Common{}).snapshot(), style);
+    const md::Simulation simulation = load_state(checkpoint, Common{});
+    style.body = simulation.scene().md.body;
+    output::write_picture(png, simulation.snapshot(), style);
     return 0;
 }
 

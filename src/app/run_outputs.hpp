@@ -6,12 +6,14 @@
 #include "output/checkpoint.hpp"
 #include "output/folder.hpp"
 #include "output/log.hpp"
-#include "output/report.hpp"
+#include "output/picture_series.hpp"
+#include "output/replay.hpp"
 #include "output/writers.hpp"
 
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,24 +36,24 @@ public:
     void warn_into(std::FILE* stream) { warnings_ = stream; }
 
 private:
+    void open_writers(const output::Checkpoint* resume);
     void write_log(const md::Simulation& simulation);
-    void write_picture(const analysis::Snapshot& snapshot);
+    void write_movie();
+    void write_report(const md::Simulation& simulation, double rate);
     std::string write_checkpoint(const md::Simulation& simulation);
     void warn(const std::string& text);
 
     scene::Scene scene_;
     output::RunFolder folder_;
     std::string plan_text_;
-    std::unique_ptr<output::LogWriter> log_;
-    analysis::Log history_;
-    std::vector<std::pair<std::string, std::unique_ptr<output::TrajectoryWriter>>> trajectories_;
-    output::ReplayRecorder replay_;
     std::int64_t log_steps_, picture_steps_, trajectory_steps_, checkpoint_steps_, replay_steps_;
-    std::int64_t pictures_ = 0;
-    double colour_max_ = 0;
+    std::unique_ptr<output::LogWriter> log_;
+    std::unique_ptr<output::PictureSeries> pictures_;
+    std::map<std::string, std::unique_ptr<output::TrajectoryWriter>> trajectories_; // by name of bookmark
+    std::unique_ptr<output::ReplayWriter> replay_;                                  // null without a report
     bool overlap_warned_ = false;
     std::size_t events_seen_ = 0;
-    std::vector<std::filesystem::path> checkpoints_;
+    std::vector<std::filesystem::path> checkpoints_; // oldest first
     std::FILE* warnings_ = nullptr;
 };
 

@@ -19,13 +19,9 @@ public:
     ~RunFolder();
 
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-    // Subfolders, created on first use.
-    [[nodiscard]] std::filesystem::path pictures() const { return subfolder("pictures"); }
-    [[nodiscard]] std::filesystem::path frames() const { return subfolder("frames"); }
-    [[nodiscard]] std::filesystem::path checkpoints() const { return subfolder("checkpoints"); }
+    [[nodiscard]] std::filesystem::path checkpoints() const; // created on first use
 
 private:
-    [[nodiscard]] std::filesystem::path subfolder(const char* name) const;
     void lock(Start start);
 
     std::filesystem::path path_;
