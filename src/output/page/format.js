@@ -7,6 +7,7 @@ function complain(what) {
   box.hidden = false;
 }
 window.addEventListener("error", (event) => complain(event.message));
+window.addEventListener("securitypolicyviolation", (event) => complain(`refused: ${event.violatedDirective}`));
 window.addEventListener("unhandledrejection", (event) => complain(String(event.reason)));
 
 const byId = (id) => document.getElementById(id);

@@ -24,11 +24,12 @@ function groupColumns(columns) {
   return [...groups].sort((a, b) => order(a[0]) - order(b[0]));
 }
 
-// "kinetic energy" under the title "Energy" is "kinetic".
+const seriesNames = { contacts: "between grains", wall_contacts: "with walls", grains: "present" };
+
+// Under the title "Energy", kinetic_energy is "kinetic".
 function seriesLabel(title, name) {
-  const words = readableName(name);
-  const shorter = words.replace(new RegExp(`\\s*\\b${title.toLowerCase()}\\b\\s*`), " ").trim();
-  return shorter || "all";
+  const shorter = readableName(name).split(" ").filter((word) => word !== title.toLowerCase());
+  return seriesNames[name] ?? shorter.join(" ");
 }
 
 function nearestIndex(times, time) {
@@ -52,7 +53,7 @@ class Plot {
     this.series = columns.map((column, n) => ({
       values: column.values,
       label: columns.length > 1 ? seriesLabel(title, column.name) : "",
-      colour: `var(--s${n % 5})`,
+      colour: column.name === "total_energy" ? "var(--total)" : `var(--s${n % 5})`,
       shown: true,
     }));
     this.unit = columns[0].unit;
@@ -71,7 +72,8 @@ class Plot {
     for (const series of this.series) {
       series.readout = element("b");
       const button = element("button", { type: "button", "aria-pressed": "true" });
-      button.append(element("i", { style: `background:${series.colour}` }), series.label, series.readout);
+      if (this.series.length > 1) button.append(element("i", { style: `background:${series.colour}` }), series.label);
+      button.append(series.readout);
       button.disabled = this.series.length === 1;
       button.addEventListener("click", () => {
         series.shown = !series.shown;
@@ -132,7 +134,7 @@ class Plot {
     }
     const time = unitFor("s", Math.max(Math.abs(this.times[0]), Math.abs(this.times[0] + span)));
     const start = this.times[0] * time.factor;
-    const labels = ticks(start, start + span * time.factor, Math.max(2, Math.floor(this.width / 80)));
+    const labels = ticks(start, start + span * time.factor, Math.max(2, Math.floor(this.width / 60)));
     labels.forEach((tick, n) => {
       const x = this.px(tick.value / time.factor);
       const last = n === labels.length - 1;
@@ -238,7 +240,8 @@ function makePlots(data, chosen) {
     });
     note.push(`Constant: ${words.join(", ")}.`);
   }
-  if (data.logStride > 1) note.push(`The plots show every ${data.logStride}th row of log.csv.`);
+  note.push("A click on a name hides its curve; a click on a plot takes the replay there.");
+  if (data.logStride > 1) note.push(`One row in ${data.logStride} of log.csv is shown.`);
   byId("plots-note").textContent = note.join(" ");
   return { showReplayTime };
 }
