@@ -207,13 +207,13 @@ class Plot {
   }
 }
 
-// Makes all plots of the log; returns what the replay tells them.
+// Makes all plots of the log; returns how they learn of a new layout and of the time that the replay shows.
 function makePlots(data, chosen) {
   const time = data.log.find((column) => column.name === "time");
   const note = [];
   if (!time || time.values.length === 0) {
     byId("plots-note").textContent = "The log of this run is empty: nothing to plot.";
-    return { showReplayTime() {} };
+    return { draw() {}, showReplayTime() {} };
   }
   const others = data.log.filter((column) => column !== time && column.name !== "step");
   const constant = others.filter((column) => isConstant(column.values));
@@ -243,5 +243,5 @@ function makePlots(data, chosen) {
   note.push("A click on a name hides its curve; a click on a plot takes the replay there.");
   if (data.logStride > 1) note.push(`One row in ${data.logStride} of log.csv is shown.`);
   byId("plots-note").textContent = note.join(" ");
-  return { showReplayTime };
+  return { draw, showReplayTime };
 }

@@ -249,8 +249,8 @@ class Replay {
 
   showPace() {
     const pace = (this.speed * this.span) / Replay.usualSeconds; // simulated seconds per second
-    byId("pace").textContent = pace < 1 ? `${readable(1 / pace, 2)} times slower than real` : `${readable(pace, 2)} times faster than real`;
-    if (pace > 0.98 && pace < 1.02) byId("pace").textContent = "as fast as real";
+    byId("pace").textContent = pace < 1 ? `${readable(1 / pace, 2)} times slower than real time` : `${readable(pace, 2)} times faster than real time`;
+    if (pace > 0.98 && pace < 1.02) byId("pace").textContent = "as fast as real time";
   }
 
   showScale() {

@@ -19,6 +19,7 @@ async function main() {
   const frames = await readFrames(byId("replay-data").textContent, data.frames);
   if (frames.length > 0) {
     replay = new Replay(data, frames, (time) => plots.showReplayTime(time));
+    plots.draw(); // the replay has taken its room
     replay.play(!matchMedia("(prefers-reduced-motion: reduce)").matches);
   }
   document.body.dataset.ready = "yes";
