@@ -23,7 +23,8 @@ std::int64_t interval(double seconds, double duration, double parts, double dt) 
     if (seconds < 0) return never;
     if (seconds == 0) seconds = parts > 0 ? duration / parts : -1;
     if (seconds <= 0) return never;
-    return std::max<std::int64_t>(1, std::llround(seconds / dt));
+    const double steps = seconds / dt;
+    return steps < 1e15 ? std::max<std::int64_t>(1, std::llround(steps)) : never;
 }
 
 const char* trajectory_name(scene::Trajectory kind) {
@@ -97,14 +98,24 @@ RunOutputs::RunOutputs(const fs::path& folder, const md::Simulation& sim, std::s
                        const output::Checkpoint* resume)
     : scene_(sim.scene()),
       folder_(folder, resume != nullptr ? output::RunFolder::Start::resume : output::RunFolder::Start::fresh),
-      plan_text_(std::move(plan_text)) {
+      plan_text_(std::move(plan_text)), dt_(sim.plan().dt) {
     const scene::Output& o = scene_.output;
-    const double dt = sim.plan().dt, duration = scene_.md.duration;
+    const double dt = dt_, duration = scene_.md.duration;
     log_steps_ = interval(o.log_every, duration, 200, dt);
     picture_steps_ = interval(o.picture_every, duration, 20, dt);
     trajectory_steps_ = interval(o.trajectory_every, duration, 100, dt);
     checkpoint_steps_ = interval(o.checkpoint_every, duration, 0, dt);
     replay_steps_ = o.report ? interval(0, duration, 200, dt) : never;
+    try {
+        open_files(resume);
+    } catch (...) {
+        if (resume == nullptr) folder_.discard();
+        throw;
+    }
+}
+
+void RunOutputs::open_files(const output::Checkpoint* resume) {
+    const scene::Output& o = scene_.output;
     const auto bookmark = [&](const std::string& name) {
         return resume != nullptr && resume->bookmarks.contains(name) ? resume->bookmarks.at(name)
                                                                      : std::string();
@@ -114,11 +125,13 @@ RunOutputs::RunOutputs(const fs::path& folder, const md::Simulation& sim, std::s
     log_ = std::make_unique<output::LogWriter>(folder_.path() / "log.csv", log_columns(), bookmark("log"));
     history_.columns = log_columns();
     if (resume != nullptr) history_ = output::read_log(folder_.path() / "log.csv");
+    scene::Scene resolved = scene_;
+    resolved.md.dt = dt_;
     if (trajectory_steps_ != never)
         for (const scene::Trajectory kind : o.trajectory) {
             const std::string name = trajectory_name(kind);
             trajectories_.emplace_back(
-                name, output::make_trajectory_writer(kind, folder_.path(), scene_, bookmark(name)));
+                name, output::make_trajectory_writer(kind, folder_.path(), resolved, bookmark(name)));
         }
     if (!bookmark("pictures").empty()) pictures_ = std::stoll(bookmark("pictures"));
 }
@@ -177,6 +190,7 @@ std::string RunOutputs::write_checkpoint(const md::Simulation& sim) {
     c.scene = scene::write_scene(scene_);
     c.engine_state = sim.serialise();
     c.step = sim.step();
+    c.wall_seconds = wall_before_ + clock_.seconds();
     c.bookmarks["log"] = log_->bookmark();
     c.bookmarks["pictures"] = std::to_string(pictures_);
     for (auto& [name, writer] : trajectories_) c.bookmarks[name] = writer->bookmark();
@@ -221,7 +235,7 @@ std::string RunOutputs::finish(const md::Simulation& sim, bool stopped, const st
 }
 
 void RunOutputs::warn(const std::string& text) {
-    if (warnings_ != nullptr) fmt::print(warnings_, "warning: {}\n", text);
+    if (!quiet_) tell(fmt::format("warning: {}\n", text));
 }
 
 } // namespace sandlane::app

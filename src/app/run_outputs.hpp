@@ -2,6 +2,7 @@
 // report.
 #pragma once
 
+#include "core/progress.hpp"
 #include "md/simulation.hpp"
 #include "output/checkpoint.hpp"
 #include "output/folder.hpp"
@@ -10,7 +11,6 @@
 #include "output/writers.hpp"
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -31,9 +31,12 @@ public:
     // Last outputs, checkpoint, report, movie. Returns the path of the checkpoint.
     std::string finish(const md::Simulation& simulation, bool stopped, const std::string& summary,
                        double rate);
-    void warn_into(std::FILE* stream) { warnings_ = stream; }
+    void be_quiet(bool quiet) { quiet_ = quiet; } // no warnings
+    // Wall time of the runs that this one continues, s.
+    void spent_before(double seconds) { wall_before_ = seconds; }
 
 private:
+    void open_files(const output::Checkpoint* resume);
     void write_log(const md::Simulation& simulation);
     void write_picture(const analysis::Snapshot& snapshot);
     std::string write_checkpoint(const md::Simulation& simulation);
@@ -42,6 +45,7 @@ private:
     scene::Scene scene_;
     output::RunFolder folder_;
     std::string plan_text_;
+    double dt_; // s
     std::unique_ptr<output::LogWriter> log_;
     analysis::Log history_;
     std::vector<std::pair<std::string, std::unique_ptr<output::TrajectoryWriter>>> trajectories_;
@@ -52,7 +56,9 @@ private:
     bool overlap_warned_ = false;
     std::size_t events_seen_ = 0;
     std::vector<std::filesystem::path> checkpoints_;
-    std::FILE* warnings_ = nullptr;
+    bool quiet_ = false;
+    Stopwatch clock_;
+    double wall_before_ = 0;
 };
 
 } // namespace sandlane::app

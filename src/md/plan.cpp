@@ -188,13 +188,18 @@ Derived derive(const Scene& scene, const Needs& needs) {
 
 namespace {
 
+// Sites are numbered with 32 bits; around the domain there is a halo, and rows are padded.
+constexpr double most_sites = 0x1p31, site_margin = 64;
+
 // Site edges that divide the domain and keep dx^2 + dy^2 <= r_min^2, 2 R_max <= reach min(dx, dy) (items
 // 2-6). Returns false if no reach up to 4 serves.
 bool fit_lattice(const Scene& scene, const Needs& needs, Plan& plan) {
     const Vec size = plan.upper - plan.lower;
     const double edge = (2 - scene.md.delta) * needs.radius_min / std::numbers::sqrt2;
-    plan.columns = static_cast<std::int32_t>(std::ceil(size.x / edge));
-    plan.rows = static_cast<std::int32_t>(std::ceil(size.y / edge));
+    const double columns = std::ceil(size.x / edge), rows = std::ceil(size.y / edge);
+    if (!((columns + site_margin) * (rows + site_margin) < most_sites)) return false;
+    plan.columns = static_cast<std::int32_t>(columns);
+    plan.rows = static_cast<std::int32_t>(rows);
     plan.site_x = size.x / plan.columns;
     plan.site_y = size.y / plan.rows;
     for (plan.reach = 2; plan.reach <= 4; ++plan.reach)
@@ -210,6 +215,13 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     const double ratio = needs.radius_min > 0 ? needs.radius_max / needs.radius_min : 1;
     const bool asks = wanted == NeighbourMethod::lattice || wanted == NeighbourMethod::lattice_half;
     const bool fits = needs.radius_max > 0 && fit_lattice(scene, needs, plan);
+    if (asks && needs.radius_max > 0 && plan.columns == 0)
+        fail(Exit::invalid_input,
+             "md.neighbours = \"lattice\": the domain of {:.4g} x {:.4g} m would have more than {:.3g} "
+             "sites, about {:.3g} m "
+             "wide for the smallest radius. Shrink the domain, or use md.neighbours = \"auto\" or "
+             "\"link-cells\".",
+             plan.upper.x - plan.lower.x, plan.upper.y - plan.lower.y, most_sites, needs.radius_min);
     if (asks && needs.radius_max > 0 && !fits)
         fail(Exit::invalid_input,
              "md.neighbours = \"lattice\": radius ratio {:.4g} and domain do not suit the lattice; with "
@@ -309,7 +321,13 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
              "it could pass through a wall. Lower md.dt below {:.3g} s.",
              plan.dt, scene.md.max_speed, scene.md.max_speed * plan.dt, 0.1 * needs.radius_min,
              0.1 * needs.radius_min / scene.md.max_speed);
-    plan.steps = std::llround(scene.md.duration / plan.dt);
+    const double steps = scene.md.duration / plan.dt;
+    if (!(steps <= 0x1p53))
+        fail(
+            Exit::invalid_input,
+            "md.duration = {:.4g} s: {:.4g} steps of {:.4g} s; allowed: up to 9e15 steps. Lower md.duration.",
+            scene.md.duration, steps, plan.dt);
+    plan.steps = std::llround(steps);
     choose_neighbours(scene, needs, plan);
     plan.chosen.insert(plan.chosen.begin(), fmt::format("kernels: {}; threads: {} ({})", simd::isa_name(isa),
                                                         plan.threads, threads_reason));

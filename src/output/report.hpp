@@ -27,7 +27,8 @@ public:
 
 private:
     std::vector<analysis::Snapshot> frames_;
-    std::int64_t stride_ = 1, seen_ = 0;
+    std::int64_t stride_ = 1;
+    [[maybe_unused]] std::int64_t seen_ = 0;
 };
 
 void write_report(const std::filesystem::path& path, const ReportInput& input, const ReplayRecorder& replay);

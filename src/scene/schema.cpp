@@ -86,6 +86,16 @@ template <class T> Field<T> items_field(std::vector<GrainItem> T::*member, std::
 
 } // namespace
 
+const Choices& neighbour_choices() {
+    static const Choices choices = {"auto", "brute-force", "link-cells", "lattice", "lattice-half", "verlet"};
+    return choices;
+}
+
+const Choices& colour_choices() {
+    static const Choices choices = {"speed", "pressure", "spin", "radius"};
+    return choices;
+}
+
 const Table<Scene>& scene_table() {
     static const Table<Scene> table =
         Table<Scene>("Keys outside any table.")
@@ -279,8 +289,7 @@ const Table<Md>& md_table() {
             .choice("tangential", &Md::tangential, {"none", "haff-werner"}, "tangential force")
             .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6", "velocity-verlet"},
                     "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet")
-            .choice("neighbours", &Md::neighbours,
-                    {"auto", "brute-force", "link-cells", "lattice", "lattice-half"}, "pair finding")
+            .choice("neighbours", &Md::neighbours, neighbour_choices(), "pair finding")
             .number("dt", &Md::dt, Unit::time, not_negative(),
                     "time step; 0: chosen from the stiffest contact (t_c/50)")
             .number("duration", &Md::duration, Unit::time, not_negative(), "simulated time; 0: no steps")
@@ -306,8 +315,7 @@ const Table<Output>& output_table() {
                     "checkpoints; 0: only at the end")
             .choices("trajectory", &Output::trajectory, {"dump", "xyz", "vtp", "book"},
                      "LAMMPS dump, extended XYZ, VTK, or snapshots as in the book")
-            .choice("colour", &Output::colour, {"speed", "pressure", "spin", "radius"},
-                    "colour of the grains")
+            .choice("colour", &Output::colour, colour_choices(), "colour of the grains")
             .integer("picture_width", &Output::picture_width, between(64, 16384),
                      "width of pictures in pixels")
             .flag("movie", &Output::movie, "movie.mp4, if ffmpeg is installed")
