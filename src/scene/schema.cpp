@@ -280,10 +280,9 @@ const Table<Motion>& motion_table() {
 
 const Table<Md>& md_table() {
     static const Table<Md> table =
-        Table<Md>("Force-based molecular dynamics. `neighbours = \"auto\"` takes the vectorised lattice "
-                  "where radii and "
-                  "density suit it and link cells elsewhere; brute force and the full mask (`lattice`) are "
-                  "for comparison.")
+        Table<Md>(
+            "Force-based molecular dynamics. `neighbours = \"auto\"` picks the method of finding pairs that "
+            "suits the scene, and says why in the plan; all methods give the same contacts.")
             .choice("normal", &Md::normal, {"linear-dashpot", "viscoelastic"},
                     "normal force: spring and dashpot, or viscoelastic spheres (Hertz)")
             .choice("tangential", &Md::tangential, {"none", "haff-werner"}, "tangential force")

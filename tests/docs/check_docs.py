@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""check_docs.py scene_reference|man|examples SOURCE_FOLDER PROGRAM: compares the documents with the program."""
+"""check_docs.py scene_reference|man|examples|links SOURCE_FOLDER PROGRAM: compares the documents with the program."""
 import pathlib
 import re
 import subprocess
@@ -49,6 +49,15 @@ def examples():
     return problems
 
 
-problems = {"scene_reference": scene_reference, "man": man, "examples": examples}[check]()
+def links():
+    problems = []
+    for path in [*source.glob("*.md"), *(source / "docs").glob("*.md")]:
+        for link in re.findall(r"\]\(([^)#:]+)[)#]", path.read_text()):
+            if not (path.parent / link).exists():
+                problems.append(f"{path}: there is no {link}")
+    return problems
+
+
+problems = {"scene_reference": scene_reference, "man": man, "examples": examples, "links": links}[check]()
 print("\n".join(problems))
 sys.exit(1 if problems else 0)
