@@ -60,6 +60,10 @@ std::string Simulation::serialise() const {
     }
     w.put(static_cast<std::uint64_t>(events_.size()));
     for (const std::string& event : events_) w.put_text(event);
+    if (plan_.memory > 0) {
+        lists_.memory(state_).write(w);
+        walls_.memory(state_).write(w);
+    }
     return w.bytes();
 }
 
@@ -91,6 +95,8 @@ void Simulation::restore(const std::string& bytes) {
     events_.clear();
     const auto events = r.get<std::uint64_t>();
     for (std::uint64_t n = 0; n < events; ++n) events_.push_back(r.get_text());
+    lists_.adopt(plan_.memory > 0 ? ContactMemory::read(r, plan_.memory) : ContactMemory());
+    walls_.adopt(plan_.memory > 0 ? ContactMemory::read(r, plan_.memory) : ContactMemory());
     if (!r.at_end()) damaged();
     if (method != plan_.neighbours) use_link_cells();
     if (method != plan_.neighbours) damaged();
@@ -98,8 +104,6 @@ void Simulation::restore(const std::string& bytes) {
     force_step_ = step_ + 1;
     sorted_ = true;
     state_.refresh_records(plan_.dt);
-    walls_.invalidate();
-    lists_.invalidate();
     bin();
 }
 

@@ -86,6 +86,22 @@ template <class T> Field<T> items_field(std::vector<GrainItem> T::*member, std::
 
 } // namespace
 
+const Choices& normal_choices() {
+    static const Choices choices = {
+#define NORMAL(type, choice, name, key) name,
+#include "laws/laws.def"
+    };
+    return choices;
+}
+
+const Choices& tangential_choices() {
+    static const Choices choices = {
+#define TANGENTIAL(type, choice, name) name,
+#include "laws/laws.def"
+    };
+    return choices;
+}
+
 const Choices& neighbour_choices() {
     static const Choices choices = {"auto", "brute-force", "link-cells", "lattice", "lattice-half", "verlet"};
     return choices;
@@ -164,7 +180,9 @@ const Table<MaterialPair>& pair_table() {
             .number("dissipation", &MaterialPair::dissipation, Unit::time, any, "A of the pair")
             .number("friction", &MaterialPair::friction, Unit::none, any, "mu of the pair")
             .number("tangential_damping", &MaterialPair::tangential_damping, Unit::damping, any,
-                    "gamma_t of the pair");
+                    "gamma_t of the pair")
+            .number("tangential_stiffness", &MaterialPair::tangential_stiffness, Unit::stiffness, any,
+                    "k_t of the pair");
     return table;
 }
 
@@ -285,7 +303,7 @@ const Table<Md>& md_table() {
             "suits the scene, and says why in the plan; all methods give the same contacts.")
             .choice("normal", &Md::normal, {"linear-dashpot", "viscoelastic"},
                     "normal force: spring and dashpot, or viscoelastic spheres (Hertz)")
-            .choice("tangential", &Md::tangential, {"none", "haff-werner"}, "tangential force")
+            .choice("tangential", &Md::tangential, tangential_choices(), "tangential force")
             .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6", "velocity-verlet"},
                     "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet")
             .choice("neighbours", &Md::neighbours, neighbour_choices(), "pair finding")

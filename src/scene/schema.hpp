@@ -72,6 +72,8 @@ private:
 };
 
 // Choices that the command line and outputs spell too.
+const Choices& normal_choices();
+const Choices& tangential_choices();
 const Choices& neighbour_choices();
 const Choices& colour_choices();
 
