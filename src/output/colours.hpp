@@ -26,11 +26,14 @@ struct Rgb {
 struct Quantity {
     std::string_view name, unit;
 };
-[[nodiscard]] Quantity quantity(scene::Colour colour);
+[[nodiscard]] Quantity quantity(scene::Colour colour, scene::Body body);
 
 // One value per grain, never negative: speed, contact pressure (tension counts as 0), size of the spin,
 // radius.
 [[nodiscard]] std::vector<double> colour_values(const analysis::Snapshot& snapshot, scene::Colour colour);
+
+// 0 if no value is finite and positive.
+[[nodiscard]] double largest_finite(const std::vector<double>& values);
 
 // The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten that is not below `value` (> 0).
 [[nodiscard]] double round_up(double value);
