@@ -74,6 +74,7 @@ private:
 // Choices that the command line and outputs spell too.
 const Choices& neighbour_choices();
 const Choices& colour_choices();
+const Choices& trajectory_choices();
 
 const Table<Domain>& domain_table();
 const Table<Material>& material_table();
