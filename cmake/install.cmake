@@ -7,7 +7,7 @@ if(TARGET sandlane)
 endif()
 install(TARGETS sandlane_lib EXPORT sandlane-targets)
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sandlane
-  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN app EXCLUDE)
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN app EXCLUDE PATTERN page EXCLUDE)
 # The one door of simd/; the wrapper over xsimd and the kernels stay at home.
 install(FILES simd/tables.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sandlane/simd)
 install(DIRECTORY data/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/sandlane)

@@ -5,6 +5,7 @@
 #include "output/picture.hpp"
 #include "output/report.hpp"
 #include "scene/reader.hpp"
+#include "scene/schema.hpp"
 
 #include <fmt/format.h>
 
@@ -27,20 +28,6 @@ std::int64_t interval(double seconds, double duration, double parts, double dt) 
     if (seconds <= 0) return never;
     const double steps = seconds / dt;
     return steps < 1e15 ? std::max<std::int64_t>(1, std::llround(steps)) : never;
-}
-
-const char* trajectory_name(scene::Trajectory kind) {
-    switch (kind) {
-    case scene::Trajectory::dump:
-        return "dump";
-    case scene::Trajectory::xyz:
-        return "xyz";
-    case scene::Trajectory::vtp:
-        return "vtp";
-    case scene::Trajectory::book:
-        return "book";
-    }
-    return "";
 }
 
 std::string bookmark_in(const output::Checkpoint* checkpoint, const std::string& name) {
@@ -102,7 +89,7 @@ void RunOutputs::open_files(const output::Checkpoint* resume) {
     resolved.md.dt = dt_;
     if (trajectory_steps_ != never)
         for (const scene::Trajectory kind : scene_.output.trajectory) {
-            const std::string name = trajectory_name(kind);
+            const std::string name(scene::trajectory_choices()[static_cast<std::size_t>(kind)]);
             trajectories_[name] =
                 output::make_trajectory_writer(kind, folder_.path(), resolved, bookmark_in(resume, name));
         }

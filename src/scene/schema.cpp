@@ -112,6 +112,11 @@ const Choices& colour_choices() {
     return choices;
 }
 
+const Choices& trajectory_choices() {
+    static const Choices choices = {"dump", "xyz", "vtp", "book"};
+    return choices;
+}
+
 const Table<Scene>& scene_table() {
     static const Table<Scene> table =
         Table<Scene>("Keys outside any table.")
@@ -330,7 +335,7 @@ const Table<Output>& output_table() {
                     "trajectory; 0: duration/100, negative: none")
             .number("checkpoint_every", &Output::checkpoint_every, Unit::time, not_negative(),
                     "checkpoints; 0: only at the end")
-            .choices("trajectory", &Output::trajectory, {"dump", "xyz", "vtp", "book"},
+            .choices("trajectory", &Output::trajectory, trajectory_choices(),
                      "LAMMPS dump, extended XYZ, VTK, or snapshots as in the book")
             .choice("colour", &Output::colour, colour_choices(), "colour of the grains")
             .integer("picture_width", &Output::picture_width, between(64, 16384),

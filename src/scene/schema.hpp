@@ -76,6 +76,7 @@ const Choices& normal_choices();
 const Choices& tangential_choices();
 const Choices& neighbour_choices();
 const Choices& colour_choices();
+const Choices& trajectory_choices();
 
 const Table<Domain>& domain_table();
 const Table<Material>& material_table();
