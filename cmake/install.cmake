@@ -10,12 +10,10 @@ install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sandlane
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN app EXCLUDE)
 # The one door of simd/; the wrapper over xsimd and the kernels stay at home.
 install(FILES simd/tables.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sandlane/simd)
-if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/data/scenes)
-  install(DIRECTORY data/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/sandlane)
-endif()
-if(EXISTS ${PROJECT_SOURCE_DIR}/docs/sandlane.1)
-  install(FILES docs/sandlane.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-endif()
+install(DIRECTORY data/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/sandlane)
+install(FILES docs/sandlane.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 
 set(SANDLANE_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sandlane)
 install(EXPORT sandlane-targets NAMESPACE sandlane:: DESTINATION ${SANDLANE_CONFIG_DIR})

@@ -35,13 +35,25 @@ struct CompareOptions {
     double tolerance = 0;          // largest relative difference allowed; 0: bit for bit
 };
 
+struct RenderOptions {
+    std::filesystem::path from; // checkpoint or scene
+    std::filesystem::path png;
+    std::string colour; // empty: what the scene says
+    int width = 0;      // pixels; 0: what the scene says
+};
+
+struct ConvertOptions {
+    std::filesystem::path from, to;
+    std::int64_t frame = -1; // of a file of snapshots; -1: the last
+    bool snapshot = false;   // write a snapshot frame instead of an init file
+};
+
 int run(const Common& common, const RunOptions& options);
 int check(const Common& common);
 int compare(const Common& common, const CompareOptions& options);
 int bench(const Common& common, std::int64_t steps);
 int info(const Common& common);
-int render(const std::filesystem::path& checkpoint, const std::filesystem::path& png,
-           const std::string& colour, int width);
-int convert(const std::filesystem::path& from, const std::filesystem::path& to);
+int render(const RenderOptions& options);
+int convert(const ConvertOptions& options);
 
 } // namespace sandlane::app

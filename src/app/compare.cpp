@@ -1,5 +1,6 @@
 // `sandlane compare`: the same scene by two instruction sets, side by side.
 #include "app/difference.hpp"
+#include "app/json.hpp"
 #include "app/prepare.hpp"
 #include "core/error.hpp"
 
@@ -21,11 +22,12 @@ int compare(const Common& common, const CompareOptions& options) {
     const double worst = std::max(worst_relative(forces), worst_relative(states));
     const bool passed = options.tolerance > 0 ? worst <= options.tolerance : same_bits && worst == 0;
     if (common.json) {
-        fmt::print(
-            "{{\"first\": \"{}\", \"second\": \"{}\", \"steps\": {}, \"grains\": {}, \"same_bits\": {}, "
-            "\"worst_relative\": {}, \"state_hash\": [\"{}\", \"{}\"]}}\n",
-            simd::isa_name(prepared.plan.isa), simd::isa_name(other), options.steps, first.state().size(),
-            same_bits, worst, first.state_hash().hex(), second.state_hash().hex());
+        fmt::print(R"({{"first": "{}", "second": "{}", "steps": {}, "grains": {}, "same_bits": {}, )"
+                   R"("worst_relative": {}, "state_hash": ["{}", "{}"]}})"
+                   "\n",
+                   simd::isa_name(prepared.plan.isa), simd::isa_name(other), options.steps,
+                   first.state().size(), same_bits, json_number(worst), first.state_hash().hex(),
+                   second.state_hash().hex());
     } else {
         fmt::print("{} against {}, {} grains\n\nForces of the initial state\n{}\nState after {} "
                    "steps\n{}\nstate_hash {} {}\n{}\n",

@@ -3,28 +3,38 @@
 #include "app/prepare.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "output/checkpoint.hpp"
+#include "core/progress.hpp"
 #include "output/picture.hpp"
 #include "scene/book_format.hpp"
+#include "scene/schema.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <numeric>
 
 namespace sandlane::app {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-bool is_toml(const std::filesystem::path& path) {
+bool is_toml(const fs::path& path) {
     return path.extension() == ".toml";
 }
 
-// The simulation as it stood in a checkpoint, or at the start of a scene.
-md::Simulation load_state(const std::filesystem::path& path, const Common& common) {
-    if (path.extension() != ".checkpoint") return prepare(scene::read_scene(path), common).simulation();
-    const output::Checkpoint checkpoint = output::read_checkpoint(path);
-    md::Simulation simulation =
-        prepare(scene::parse_scene(checkpoint.scene, path.string()), common).simulation();
-    simulation.restore(checkpoint.engine_state);
-    return simulation;
+// As it stood in a checkpoint, or at the start of a scene.
+md::Simulation load_state(const fs::path& path) {
+    const Common common;
+    if (is_toml(path)) return prepare(scene::read_scene(path), common).simulation();
+    return prepare_checkpoint(path, common).simulation();
+}
+
+// The storage order of a run follows the places of the grains.
+std::vector<std::size_t> in_order_of_ids(const md::State& state) {
+    std::vector<std::size_t> order(state.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return state.id[a] < state.id[b]; });
+    return order;
 }
 
 scene::BookRecord free_grain(const md::Simulation& sim, std::size_t i) {
@@ -53,10 +63,24 @@ scene::BookRecord free_grain(const md::Simulation& sim, std::size_t i) {
 }
 
 void set_material(scene::BookRecord& r, const scene::Material& m) {
-    r.modulus = m.young > 0 ? 4 * m.young / (3 * (1 - m.poisson * m.poisson)) : m.stiffness;
+    r.modulus = 4 * m.young / (3 * (1 - m.poisson * m.poisson));
     r.dissipation = m.dissipation;
     r.friction = m.friction;
     r.damping = m.tangential_damping;
+}
+
+// The format knows one normal law, and walls made of grains only.
+void check_suits_book(const scene::Scene& s, const fs::path& from) {
+    if (s.md.normal != scene::NormalLaw::viscoelastic)
+        fail(Exit::invalid_input,
+             "convert: {}: md.normal = \"linear-dashpot\" has no place in the book's format, which knows "
+             "viscoelastic grains only",
+             from.string());
+    const auto lost = std::count_if(s.walls.begin(), s.walls.end(),
+                                    [](const scene::Wall& w) { return w.kind != scene::WallKind::grains; });
+    if (lost > 0)
+        tell(fmt::format("warning: {}: {} walls are left out; the book's format knows rows of grains only\n",
+                         from.string(), lost));
 }
 
 scene::Book to_book(const md::Simulation& sim) {
@@ -71,13 +95,12 @@ scene::Book to_book(const md::Simulation& sim) {
     book.header.y_0 = s.domain.lower.y;
     book.header.lx = s.domain.upper.x - s.domain.lower.x;
     book.header.ly = s.domain.upper.y - s.domain.lower.y;
-    for (std::size_t i = 0; i < sim.state().size(); ++i) {
+    for (const std::size_t i : in_order_of_ids(sim.state())) {
         scene::BookRecord r = free_grain(sim, i);
         set_material(r, s.materials[static_cast<std::size_t>(sim.state().material[i])]);
         book.records.push_back(r);
     }
-    // Wall grains as fixed ones (type 1): the format has no parameters for motions. Analytic walls have no
-    // place in it.
+    // Wall grains as fixed ones (type 1): the format has no parameters for motions.
     for (const analysis::WallShape& w : sim.snapshot().walls) {
         if (w.kind != analysis::WallShape::Kind::disc) continue;
         scene::BookRecord r;
@@ -92,36 +115,70 @@ scene::Book to_book(const md::Simulation& sim) {
     return book;
 }
 
+// An init file, or one frame of a file of snapshots.
+scene::Book read_book(const fs::path& path, std::int64_t frame) {
+    const std::string text = read_file(path), name = path.string();
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos || text.compare(first, 9, "#NewFrame") != 0) {
+        if (frame >= 0)
+            fail(Exit::invalid_input, "{}: is an init file without frames; leave out --frame", name);
+        return scene::parse_book(text, name);
+    }
+    std::vector<scene::Book> frames = scene::parse_book_frames(text, name);
+    const auto count = static_cast<std::int64_t>(frames.size());
+    if (frame >= count)
+        fail(Exit::invalid_input, "{}: --frame {}: the file has {} frames; allowed: 0 to {}", name, frame,
+             count, count - 1);
+    return std::move(frames[static_cast<std::size_t>(frame < 0 ? count - 1 : frame)]);
+}
+
+std::string scene_text_of_book(const ConvertOptions& options) {
+    const scene::Scene scene =
+        scene::scene_from_book(read_book(options.from, options.frame), options.from.string());
+    scene::validate(scene, options.from.string());
+    return scene::write_scene(scene);
+}
+
+std::string book_text(const ConvertOptions& options) {
+    const md::Simulation simulation = load_state(options.from);
+    check_suits_book(simulation.scene(), options.from);
+    const scene::Book book = to_book(simulation);
+    return options.snapshot ? scene::write_book_frame(book) : scene::write_book(book);
+}
+
 } // namespace
 
-int convert(const std::filesystem::path& from, const std::filesystem::path& to) {
-    const Common common;
-    const bool from_book = !is_toml(from) && from.extension() != ".checkpoint";
-    if (from_book && !is_toml(to))
+int convert(const ConvertOptions& options) {
+    const bool from_book = !is_toml(options.from) && options.from.extension() != ".checkpoint";
+    if (from_book && !is_toml(options.to))
         fail(Exit::invalid_input,
              "convert: {} is a book file; it converts to a scene, so the target must end in .toml",
-             from.string());
-    if (from_book)
-        write_file_atomically(to, scene::write_scene(scene::scene_from_book(
-                                      scene::parse_book(read_file(from), from.string()), from.string())));
-    else if (is_toml(to))
-        write_file_atomically(to, scene::write_scene(load_state(from, common).scene()));
-    else
-        write_file_atomically(to, scene::write_book(to_book(load_state(from, common))));
+             options.from.string());
+    if (!from_book && options.frame >= 0)
+        fail(Exit::invalid_input, "convert: {}: --frame goes with the book's snapshot files only",
+             options.from.string());
+    if (is_toml(options.to) && options.snapshot)
+        fail(Exit::invalid_input,
+             "convert: {}: --snapshot goes with book files; a target that ends in .toml is a scene",
+             options.to.string());
+    const std::string text = from_book             ? scene_text_of_book(options)
+                             : is_toml(options.to) ? scene::write_scene(load_state(options.from).scene())
+                                                   : book_text(options);
+    write_file_atomically(options.to, text);
     return 0;
 }
 
-int render(const std::filesystem::path& checkpoint, const std::filesystem::path& png,
-           const std::string& colour, int width) {
+int render(const RenderOptions& options) {
+    const md::Simulation simulation = load_state(options.from);
+    const scene::Output& wanted = simulation.scene().output;
+    const scene::Choices& colours = scene::colour_choices();
+    const auto colour = std::find(colours.begin(), colours.end(), options.colour);
     output::PictureStyle style;
-    style.width = width;
-    style.colour = colour == "pressure" ? scene::Colour::pressure
-                   : colour == "spin"   ? scene::Colour::spin
-                   : colour == "radius" ? scene::Colour::radius
-                                        : scene::Colour::speed;
-    const md::Simulation simulation = load_state(checkpoint, Common{});
+    style.width = options.width > 0 ? options.width : static_cast<int>(wanted.picture_width);
+    style.colour =
+        colour == colours.end() ? wanted.colour : static_cast<scene::Colour>(colour - colours.begin());
     style.body = simulation.scene().md.body;
-    output::write_picture(png, simulation.snapshot(), style);
+    output::write_picture(options.png, simulation.snapshot(), style);
     return 0;
 }
 

@@ -1,10 +1,13 @@
-// Scene file -> ready simulation, the same way for every command.
+// Scene file or checkpoint -> ready simulation, the same way for every command.
 #pragma once
 
 #include "app/commands.hpp"
 #include "core/parallel.hpp"
 #include "md/simulation.hpp"
+#include "output/checkpoint.hpp"
 #include "scene/initial_state.hpp"
+
+#include <filesystem>
 
 namespace sandlane::app {
 
@@ -16,22 +19,26 @@ struct Prepared {
     md::Plan plan;
 
     [[nodiscard]] md::Simulation simulation() const { return {scene, grains, needs, plan}; }
+    // The text of `sandlane check`.
+    [[nodiscard]] std::string description() const { return md::describe(scene, needs, derived, plan); }
 };
 
-[[nodiscard]] inline Prepared prepare(scene::Scene scene, const Common& common) {
-    Prepared p;
-    p.scene = std::move(scene);
-    const simd::Isa isa = simd::choose_isa(common.isa);
-    const ThreadChoice threads = choose_threads(common.threads);
-    p.grains = scene::initial_grains(p.scene);
-    p.needs = md::analyse(p.scene, p.grains);
-    p.derived = md::derive(p.scene, p.needs);
-    p.plan = md::make_plan(p.scene, p.needs, p.derived, isa, threads);
-    return p;
-}
+[[nodiscard]] Prepared prepare(scene::Scene scene, const Common& common);
+[[nodiscard]] Prepared prepare(const Common& common); // its scene file
 
-[[nodiscard]] inline Prepared prepare(const Common& common) {
-    return prepare(scene::read_scene(common.scene, common.overrides), common);
-}
+// Derived quantities and the plan on standard output.
+void print_plan(const Prepared& prepared, bool json);
+
+// A checkpoint with the scene it carries, overrides applied.
+struct Restorable {
+    std::filesystem::path path;
+    Prepared prepared;
+    output::Checkpoint checkpoint;
+
+    // As it stood. Throws Error(io) if the state does not belong to the scene, for example after an override
+    // of what it depends on.
+    [[nodiscard]] md::Simulation simulation() const;
+};
+[[nodiscard]] Restorable prepare_checkpoint(const std::filesystem::path& path, const Common& common);
 
 } // namespace sandlane::app

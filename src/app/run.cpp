@@ -3,16 +3,17 @@
 
 #include "app/difference.hpp"
 #include "app/prepare.hpp"
+#include "app/summary.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/progress.hpp"
-#include "output/checkpoint.hpp"
 
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
 
 namespace sandlane::app {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -30,132 +31,168 @@ void catch_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
 }
 
-std::string default_folder(const Common& common, const scene::Scene& scene) {
-    const std::string stem = common.scene.stem().string();
-    return "results/" + (stem.empty() ? scene.title : stem);
+// The folder of the run that wrote a checkpoint.
+fs::path folder_of(const fs::path& checkpoint) {
+    const fs::path parent = fs::absolute(checkpoint).parent_path();
+    if (parent.filename() != "checkpoints")
+        fail(Exit::invalid_input,
+             "--resume {}: does not lie in the folder \"checkpoints\" of a run; give --out FOLDER for the "
+             "results",
+             checkpoint.string());
+    return parent.parent_path();
 }
 
-struct Timing {
-    double loop_seconds = 0, particle_steps = 0, wall_seconds = 0;
-    std::int64_t steps = 0;
-    [[nodiscard]] double rate() const { return loop_seconds > 0 ? particle_steps / loop_seconds : 0; }
+std::string latest_checkpoint(const fs::path& folder) {
+    fs::path latest;
+    std::error_code missing;
+    for (const auto& entry : fs::directory_iterator(folder / "checkpoints", missing))
+        if (entry.path().extension() == ".checkpoint") latest = std::max(latest, entry.path());
+    return latest.string();
+}
+
+// What an error leaves behind is still worth something.
+[[noreturn]] void fail_with_results(const Error& e, const fs::path& folder) {
+    const std::string checkpoint = latest_checkpoint(folder);
+    fail(e.code(), "{} Results so far: {}. {}", e.what(), folder.string(),
+         checkpoint.empty() ? "There is no checkpoint; output.checkpoint_every asks for some."
+                            : "Last good checkpoint: " + checkpoint);
+}
+
+// The loop over time steps, in slices that end where an output is due or a clock must be read.
+class Loop {
+public:
+    Loop(md::Simulation& sim, RunOutputs& outputs, const Common& common, const RunOptions& options)
+        : sim_(sim), outputs_(outputs), options_(options), last_(last_step(sim, options)),
+          progress_(sim.step(), last_, common.quiet) {}
+
+    Status run(const Stopwatch& wall) {
+        while (sim_.step() < last_) {
+            advance(next_stop());
+            outputs_.write_due(sim_, false);
+            if (options_.check_every > 0 && sim_.step() % options_.check_every == 0) compare_with_reference();
+            progress_.update(sim_.step(), sim_.time(), sim_.state().size());
+            if (sim_.step() == last_) break;
+            if (stop_signal != 0) return Status::interrupted;
+            if (options_.walltime > 0 && wall.seconds() > options_.walltime) return Status::walltime;
+        }
+        return Status::finished;
+    }
+
+    [[nodiscard]] const LoopTiming& timing() const { return timing_; }
+    [[nodiscard]] double worst_difference() const { return worst_; }
+
+private:
+    static std::int64_t last_step(const md::Simulation& sim, const RunOptions& options) {
+        return options.steps >= 0 ? sim.step() + options.steps : std::max(sim.step(), sim.plan().steps);
+    }
+
+    [[nodiscard]] std::int64_t next_stop() const {
+        std::int64_t stop = std::min({last_, outputs_.next_due(sim_.step()), sim_.step() + slice_});
+        if (options_.check_every > 0)
+            stop = std::min(stop, (sim_.step() / options_.check_every + 1) * options_.check_every);
+        return stop;
+    }
+
+    void advance(std::int64_t stop) {
+        const std::int64_t steps = stop - sim_.step();
+        const Stopwatch clock;
+        sim_.run(steps);
+        const double seconds = clock.seconds();
+        timing_.seconds += seconds;
+        timing_.steps += steps;
+        timing_.particle_steps += static_cast<double>(steps) * static_cast<double>(sim_.state().size());
+        if (seconds < 0.05 && steps == slice_) slice_ *= 2;
+        if (seconds > 0.2 && slice_ > 1) slice_ /= 2;
+    }
+
+    void compare_with_reference() {
+        const double worst = worst_relative(compare_forces(sim_, sim_.plan().isa, simd::Isa::scalar));
+        worst_ = std::max(worst_, worst);
+        tell(fmt::format("check at step {}: worst relative difference to the scalar reference {:.3g}\n",
+                         sim_.step(), worst));
+    }
+
+    md::Simulation& sim_;
+    RunOutputs& outputs_;
+    const RunOptions& options_;
+    std::int64_t last_;
+    Progress progress_;
+    LoopTiming timing_;
+    double worst_ = 0;
+    std::int64_t slice_ = 1; // steps between looks at the clock and at signals
 };
 
-std::string summary_json(const md::Simulation& sim, const Timing& t, const char* status) {
-    const md::Plan& plan = sim.plan();
-    static const char* methods[] = {"auto", "brute-force", "link-cells", "lattice", "lattice-half"};
-    return fmt::format(
-        "{{\"status\": \"{}\", \"steps\": {}, \"step\": {}, \"time\": {}, \"particles\": {}, "
-        "\"wall_seconds\": {:.6g}, "
-        "\"loop_seconds\": {:.6g}, \"particle_steps_per_second\": {:.6g}, \"threads\": {}, \"isa\": \"{}\", "
-        "\"plan\": {{\"engine\": \"md\", \"neighbours\": \"{}\", \"order\": {}, \"spin\": {}, \"dt\": {}}}, "
-        "\"removed\": {}, \"state_hash\": \"{}\"}}",
-        status, t.steps, sim.step(), sim.time(), sim.state().size(), t.wall_seconds, t.loop_seconds, t.rate(),
-        plan.threads, simd::isa_name(plan.isa), methods[static_cast<int>(plan.neighbours)], plan.order,
-        plan.spin, plan.dt, sim.removed(), sim.state_hash().hex());
-}
-
-// The schema that Google Benchmark writes, so that its compare.py reads production runs.
-std::string benchmark_json(const md::Simulation& sim, const Timing& t, const std::string& name) {
-    return fmt::format("{{\"context\": {{\"executable\": \"sandlane\", \"num_cpus\": {}}}, \"benchmarks\": "
-                       "[{{\"name\": \"{}\", "
-                       "\"run_name\": \"{}\", \"run_type\": \"iteration\", \"repetitions\": 1, \"threads\": "
-                       "{}, \"iterations\": {}, "
-                       "\"real_time\": {:.9g}, \"cpu_time\": {:.9g}, \"time_unit\": \"ns\", "
-                       "\"particle_steps_per_second\": {:.6g}}}]}}\n",
-                       allowed_cpus(), name, name, sim.plan().threads, t.steps,
-                       t.steps > 0 ? 1e9 * t.loop_seconds / static_cast<double>(t.steps) : 0.0,
-                       t.steps > 0 ? 1e9 * t.loop_seconds / static_cast<double>(t.steps) : 0.0, t.rate());
-}
-
-void report_check(md::Simulation& sim, double& worst) {
-    const auto differences = compare_forces(sim, sim.plan().isa, simd::Isa::scalar);
-    worst = std::max(worst, worst_relative(differences));
-    fmt::print(stderr, "check at step {}: worst relative difference to the scalar reference {:.3g}\n",
-               sim.step(), worst_relative(differences));
-}
-
-struct Loaded {
+struct Start {
     Prepared prepared;
-    output::Checkpoint checkpoint;
-    bool resumed = false;
+    md::Simulation simulation;
+    fs::path folder;
+    std::unique_ptr<output::Checkpoint> resumed; // null: from the beginning
+    bool in_place = false;                       // goes on in the folder of the earlier run
 };
 
-Loaded load(const Common& common, const RunOptions& options) {
-    if (options.resume.empty()) return {prepare(common), {}, false};
-    output::Checkpoint checkpoint = output::read_checkpoint(options.resume);
-    scene::Scene scene = scene::parse_scene(checkpoint.scene, options.resume.string(), common.overrides);
-    return {prepare(std::move(scene), common), std::move(checkpoint), true};
+Start start_from_checkpoint(const Common& common, const RunOptions& options) {
+    Restorable r = prepare_checkpoint(options.resume, common);
+    const bool in_place = options.out.empty();
+    md::Simulation simulation = r.simulation();
+    return {std::move(r.prepared), std::move(simulation), in_place ? folder_of(options.resume) : options.out,
+            std::make_unique<output::Checkpoint>(std::move(r.checkpoint)), in_place};
+}
+
+Start start_from_scene(const Common& common, const RunOptions& options) {
+    Prepared prepared = prepare(common);
+    md::Simulation simulation = prepared.simulation();
+    return {std::move(prepared), std::move(simulation),
+            options.out.empty() ? "results" / common.scene.stem() : options.out, nullptr, false};
+}
+
+void report(const Summary& summary, const Common& common, const fs::path& folder,
+            const std::string& checkpoint) {
+    if (common.json) fmt::print("{}\n", summary.json());
+    if (common.quiet) return;
+    tell(fmt::format("{}: {} steps, {} grains, {:.3g} particle-steps/s, {}. Results: {}\n",
+                     status_name(summary.status), summary.loop.steps, summary.simulation.state().size(),
+                     summary.loop.rate(), clock_text(summary.wall_seconds), folder.string()));
+    if (summary.status != Status::finished)
+        tell(fmt::format("Continue with: sandlane run --resume {}\n", checkpoint));
+}
+
+int execute(Start& start, const Common& common, const RunOptions& options, const Stopwatch& wall) {
+    md::Simulation& sim = start.simulation;
+    const double wall_before = start.resumed ? start.resumed->wall_seconds : 0;
+    RunOutputs outputs(start.folder, sim, start.prepared.description(),
+                       start.in_place ? start.resumed.get() : nullptr);
+    outputs.be_quiet(common.quiet);
+    outputs.spent_before(wall_before);
+    try {
+        if (!start.in_place) outputs.write_due(sim, true);
+        Loop loop(sim, outputs, common, options);
+        const Status status = loop.run(wall);
+        const Summary summary{sim, status, loop.timing(), wall.seconds(), wall_before};
+        const std::string checkpoint =
+            outputs.finish(sim, status != Status::finished, summary.json(), loop.timing().rate());
+        if (!options.bench_json.empty()) write_file_atomically(options.bench_json, summary.benchmark_json());
+        report(summary, common, start.folder, checkpoint);
+        if (loop.worst_difference() > 1e-12) return static_cast<int>(Exit::comparison_failed);
+        return static_cast<int>(status == Status::finished ? Exit::ok : Exit::stopped);
+    } catch (const Error& e) {
+        fail_with_results(e, start.folder);
+    }
 }
 
 } // namespace
 
 int run(const Common& common, const RunOptions& options) {
     const Stopwatch wall;
-    Loaded loaded = load(common, options);
-    const md::Plan& plan = loaded.prepared.plan;
+    if (common.scene.empty() == options.resume.empty())
+        fail(Exit::invalid_input, "run: give either a scene file, or a checkpoint with --resume");
+    Start start =
+        options.resume.empty() ? start_from_scene(common, options) : start_from_checkpoint(common, options);
     if (options.dry_run) {
-        fmt::print("{}",
-                   md::describe(loaded.prepared.scene, loaded.prepared.needs, loaded.prepared.derived, plan));
+        print_plan(start.prepared, common.json);
         return 0;
     }
-    md::Simulation sim = loaded.prepared.simulation();
-    if (loaded.resumed) sim.restore(loaded.checkpoint.engine_state);
-    const bool in_place = loaded.resumed && options.out.empty();
-    const std::filesystem::path folder =
-        !options.out.empty() ? options.out
-        : in_place           ? options.resume.parent_path().parent_path()
-                             : std::filesystem::path(default_folder(common, loaded.prepared.scene));
-    RunOutputs outputs(
-        folder, sim,
-        md::describe(loaded.prepared.scene, loaded.prepared.needs, loaded.prepared.derived, plan),
-        in_place ? &loaded.checkpoint : nullptr);
-    outputs.warn_into(common.quiet ? nullptr : stderr);
-
-    const std::int64_t first = sim.step();
-    const std::int64_t last = options.steps >= 0 ? first + options.steps : std::max(first, plan.steps);
-    Progress progress(first, last, common.quiet);
     catch_signals();
-    Timing timing;
-    double worst = 0;
-    const char* status = "finished";
-    if (!loaded.resumed || !in_place) outputs.write_due(sim, true);
-    std::int64_t slice = 1; // steps between looks at the clock and at signals
-    while (sim.step() < last) {
-        std::int64_t stop = std::min({last, outputs.next_due(sim.step()), sim.step() + slice});
-        if (options.check_every > 0)
-            stop = std::min(stop, (sim.step() / options.check_every + 1) * options.check_every);
-        const std::int64_t before = sim.step();
-        const Stopwatch loop;
-        sim.run(stop - before);
-        const double seconds = loop.seconds();
-        timing.loop_seconds += seconds;
-        timing.steps += stop - before;
-        timing.particle_steps += static_cast<double>(stop - before) * static_cast<double>(sim.state().size());
-        if (seconds < 0.05 && stop - before == slice) slice *= 2;
-        if (seconds > 0.2 && slice > 1) slice /= 2;
-        outputs.write_due(sim, false);
-        if (options.check_every > 0 && sim.step() % options.check_every == 0) report_check(sim, worst);
-        progress.update(sim.step(), sim.time(), sim.state().size());
-        if (stop_signal != 0) status = "interrupted";
-        if (options.walltime > 0 && wall.seconds() > options.walltime) status = "walltime";
-        if (status[0] != 'f' && sim.step() < last) break;
-        status = "finished";
-    }
-    const bool stopped = status[0] != 'f';
-    timing.wall_seconds = wall.seconds();
-    const std::string checkpoint =
-        outputs.finish(sim, stopped, summary_json(sim, timing, status), timing.rate());
-    if (!options.bench_json.empty())
-        write_file_atomically(options.bench_json, benchmark_json(sim, timing, loaded.prepared.scene.title));
-    if (common.json) fmt::print("{}\n", summary_json(sim, timing, status));
-    if (!common.quiet)
-        fmt::print(stderr, "{}: {} steps, {} grains, {:.3g} particle-steps/s, {} s. Results: {}\n", status,
-                   timing.steps, sim.state().size(), timing.rate(), clock_text(timing.wall_seconds),
-                   folder.string());
-    if (stopped && !common.quiet) fmt::print(stderr, "Continue with: sandlane run --resume {}\n", checkpoint);
-    if (worst > 1e-12) return static_cast<int>(Exit::comparison_failed);
-    return static_cast<int>(stopped ? Exit::stopped : Exit::ok);
+    return execute(start, common, options, wall);
 }
 
 } // namespace sandlane::app

@@ -25,7 +25,8 @@ std::int64_t interval(double seconds, double duration, double parts, double dt) 
     if (seconds < 0) return never;
     if (seconds == 0) seconds = parts > 0 ? duration / parts : -1;
     if (seconds <= 0) return never;
-    return std::max<std::int64_t>(1, std::llround(seconds / dt));
+    const double steps = seconds / dt;
+    return steps < 1e15 ? std::max<std::int64_t>(1, std::llround(steps)) : never;
 }
 
 const char* trajectory_name(scene::Trajectory kind) {
@@ -71,32 +72,39 @@ RunOutputs::RunOutputs(const fs::path& folder, const md::Simulation& sim, std::s
                        const output::Checkpoint* resume)
     : scene_(sim.scene()),
       folder_(folder, resume != nullptr ? output::RunFolder::Start::resume : output::RunFolder::Start::fresh),
-      plan_text_(std::move(plan_text)) {
+      plan_text_(std::move(plan_text)), dt_(sim.plan().dt) {
     const scene::Output& o = scene_.output;
-    const double dt = sim.plan().dt, duration = scene_.md.duration;
+    const double dt = dt_, duration = scene_.md.duration;
     log_steps_ = interval(o.log_every, duration, 200, dt);
     picture_steps_ = interval(o.picture_every, duration, 20, dt);
     trajectory_steps_ = interval(o.trajectory_every, duration, 100, dt);
     checkpoint_steps_ = interval(o.checkpoint_every, duration, 0, dt);
     replay_steps_ = o.report ? interval(0, duration, 200, dt) : never;
-    write_file_atomically(folder_.path() / "scene.toml", scene::write_scene(scene_));
-    write_file_atomically(folder_.path() / "plan.txt", plan_text_);
-    open_writers(resume);
+    try {
+        open_files(resume);
+    } catch (...) {
+        if (resume == nullptr) folder_.discard();
+        throw;
+    }
     if (resume == nullptr) return;
     checkpoints_ = earlier_checkpoints(folder_.checkpoints(), resume->step);
     events_seen_ = sim.events().size(); // the run before has told them
 }
 
-void RunOutputs::open_writers(const output::Checkpoint* resume) {
+void RunOutputs::open_files(const output::Checkpoint* resume) {
+    write_file_atomically(folder_.path() / "scene.toml", scene::write_scene(scene_));
+    write_file_atomically(folder_.path() / "plan.txt", plan_text_);
     log_ = std::make_unique<output::LogWriter>(folder_.path() / "log.csv", log_columns(),
                                                bookmark_in(resume, "log"));
     pictures_ = std::make_unique<output::PictureSeries>(folder_.path() / "pictures", scene_,
                                                         bookmark_in(resume, "pictures"));
+    scene::Scene resolved = scene_;
+    resolved.md.dt = dt_;
     if (trajectory_steps_ != never)
         for (const scene::Trajectory kind : scene_.output.trajectory) {
             const std::string name = trajectory_name(kind);
             trajectories_[name] =
-                output::make_trajectory_writer(kind, folder_.path(), scene_, bookmark_in(resume, name));
+                output::make_trajectory_writer(kind, folder_.path(), resolved, bookmark_in(resume, name));
         }
     if (replay_steps_ != never)
         replay_ = std::make_unique<output::ReplayWriter>(folder_.path(), bookmark_in(resume, "replay"));
@@ -143,6 +151,7 @@ std::string RunOutputs::write_checkpoint(const md::Simulation& sim) {
     c.scene = scene::write_scene(scene_);
     c.engine_state = sim.serialise();
     c.step = sim.step();
+    c.wall_seconds = wall_before_ + clock_.seconds();
     c.bookmarks["log"] = log_->bookmark();
     c.bookmarks["pictures"] = pictures_->bookmark();
     if (replay_ != nullptr) c.bookmarks["replay"] = replay_->bookmark();
@@ -192,7 +201,7 @@ void RunOutputs::write_report(const md::Simulation& sim, double rate) {
 }
 
 void RunOutputs::warn(const std::string& text) {
-    if (warnings_ != nullptr) fmt::print(warnings_, "warning: {}\n", text);
+    if (!quiet_) tell(fmt::format("warning: {}\n", text));
 }
 
 } // namespace sandlane::app

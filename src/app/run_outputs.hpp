@@ -2,6 +2,7 @@
 // report.
 #pragma once
 
+#include "core/progress.hpp"
 #include "md/simulation.hpp"
 #include "output/checkpoint.hpp"
 #include "output/folder.hpp"
@@ -11,7 +12,6 @@
 #include "output/writers.hpp"
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -33,10 +33,12 @@ public:
     // Last outputs, checkpoint, report, movie. Returns the path of the checkpoint.
     std::string finish(const md::Simulation& simulation, bool stopped, const std::string& summary,
                        double rate);
-    void warn_into(std::FILE* stream) { warnings_ = stream; }
+    void be_quiet(bool quiet) { quiet_ = quiet; } // no warnings
+    // Wall time of the runs that this one continues, s.
+    void spent_before(double seconds) { wall_before_ = seconds; }
 
 private:
-    void open_writers(const output::Checkpoint* resume);
+    void open_files(const output::Checkpoint* resume);
     void write_log(const md::Simulation& simulation);
     void write_movie();
     void write_report(const md::Simulation& simulation, double rate);
@@ -46,6 +48,7 @@ private:
     scene::Scene scene_;
     output::RunFolder folder_;
     std::string plan_text_;
+    double dt_; // s
     std::int64_t log_steps_, picture_steps_, trajectory_steps_, checkpoint_steps_, replay_steps_;
     std::unique_ptr<output::LogWriter> log_;
     std::unique_ptr<output::PictureSeries> pictures_;
@@ -54,7 +57,9 @@ private:
     bool overlap_warned_ = false;
     std::size_t events_seen_ = 0;
     std::vector<std::filesystem::path> checkpoints_; // oldest first
-    std::FILE* warnings_ = nullptr;
+    bool quiet_ = false;
+    Stopwatch clock_;
+    double wall_before_ = 0;
 };
 
 } // namespace sandlane::app

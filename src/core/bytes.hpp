@@ -66,7 +66,7 @@ public:
     [[nodiscard]] bool at_end() const { return position_ == bytes_.size(); }
 
 private:
-    [[noreturn]] static void damaged() { fail(Exit::io, "checkpoint: damaged or truncated content"); }
+    [[noreturn]] static void damaged() { fail(Exit::io, "damaged or truncated content"); }
     const char* take(std::size_t count) {
         if (count > bytes_.size() - position_) damaged();
         const char* at = bytes_.data() + position_;

@@ -14,7 +14,7 @@ enum class Exit : int {
     ok = 0,
     comparison_failed = 1,
     invalid_input = 2, // usage, scene or any input file
-    unavailable = 4,   // the machine lacks the instruction set or the threads asked for
+    unavailable = 4,   // the machine lacks the instruction set, the threads or the memory asked for
     io = 5,            // output could not be written, or a checkpoint is damaged
     unstable = 6,      // the simulation left the validity range of its method
     stopped = 7,       // walltime or signal; a checkpoint was written

@@ -19,8 +19,17 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail_io(const char* action, const fs::path& path, int cause) {
-    fail(Exit::io, "{}: cannot {}: {}. Choose another folder with --out, or free space and repeat.",
-         path.string(), action, std::strerror(cause));
+    fail(Exit::io, "{}: cannot {}: {}. Choose another place, or free space there.", path.string(), action,
+         std::strerror(cause));
+}
+
+// A device or a pipe: there is nothing to replace.
+void write_directly(const fs::path& path, std::string_view content) {
+    std::FILE* handle = std::fopen(path.c_str(), "wb");
+    if (handle == nullptr) fail_io("open", path, errno);
+    const bool written = std::fwrite(content.data(), 1, content.size(), handle) == content.size();
+    const int cause = errno;
+    if (std::fclose(handle) != 0 || !written) fail_io("write", path, written ? errno : cause);
 }
 
 } // namespace
@@ -40,9 +49,12 @@ std::string read_file(const fs::path& path) {
 }
 
 void write_file_atomically(const fs::path& path, std::string_view content) {
-    const fs::path temporary = path.string() + ".tmp";
+    std::error_code ignored, dangling;
+    const bool link = fs::is_symlink(path, ignored);
+    const fs::path target = link ? fs::canonical(path, dangling) : path;
+    if (dangling || fs::is_other(target, ignored)) return write_directly(path, content);
+    const fs::path temporary = target.string() + ".tmp";
     const auto give_up = [&](const char* action, int cause) {
-        std::error_code ignored;
         fs::remove(temporary, ignored);
         fail_io(action, path, cause);
     };
@@ -50,12 +62,12 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
     if (handle == nullptr) give_up("create the file", errno);
     bool written =
         content.empty() || std::fwrite(content.data(), 1, content.size(), handle) == content.size();
-    written = std::fflush(handle) == 0 && written;
-    written = ::fsync(::fileno(handle)) == 0 && written;
+    written = written && std::fflush(handle) == 0;
+    written = written && ::fsync(::fileno(handle)) == 0;
     const int cause = errno;
     written = std::fclose(handle) == 0 && written;
     if (!written) give_up("write", cause);
-    if (std::rename(temporary.c_str(), path.c_str()) != 0) give_up("rename the finished file", errno);
+    if (std::rename(temporary.c_str(), target.c_str()) != 0) give_up("rename the finished file", errno);
 }
 
 OutputFile::OutputFile(fs::path path, std::int64_t append_at) : path_(std::move(path)) {

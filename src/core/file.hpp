@@ -13,7 +13,8 @@ namespace sandlane {
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
 // Writes to a temporary file beside `path`, flushes it to the disk and renames it: a reader sees the old or
-// the new content, never half of it. Throws Error(io); the temporary file is removed.
+// the new content, never half of it. A link keeps pointing where it does; a device or a pipe is written as it
+// is. Throws Error(io); the temporary file is removed.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
 // A file that grows during a run (log, trajectory). Every error is an Error(io) naming the path.

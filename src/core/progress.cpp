@@ -8,6 +8,10 @@
 
 namespace sandlane {
 
+void tell(std::string_view text) {
+    (void)std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
 std::string clock_text(double seconds) {
     const auto whole = static_cast<std::int64_t>(seconds + 0.5);
     const std::int64_t hours = whole / 3600, minutes = whole / 60 % 60, rest = whole % 60;
@@ -20,7 +24,7 @@ Progress::Progress(std::int64_t first, std::int64_t total, bool quiet)
       interval_(terminal_ ? 0.25 : 30.0), next_(interval_), last_step_(first) {}
 
 Progress::~Progress() {
-    if (printed_ && terminal_) std::fputs("\n", stderr);
+    if (printed_ && terminal_) tell("\n");
 }
 
 void Progress::update(std::int64_t step, double time, std::size_t particles) {
@@ -39,11 +43,7 @@ void Progress::print(std::int64_t step, double time) {
         fmt::format("{:3.0f}% step {:.3g}/{:.3g} t={:.4g} s {:.2g} particle-steps/s ETA {}", 100 * done,
                     static_cast<double>(step), static_cast<double>(total_), time, work_ / spent,
                     clock_text(done > 0 ? spent * (1 - done) / done : 0));
-    if (terminal_)
-        fmt::print(stderr, "\r{:<78}", text);
-    else
-        fmt::print(stderr, "{}\n", text);
-    std::fflush(stderr);
+    tell(terminal_ ? fmt::format("\r{:<78}", text) : text + "\n");
 }
 
 } // namespace sandlane

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace sandlane {
 
@@ -38,6 +39,9 @@ private:
     double work_ = 0; // particle-steps
     Stopwatch clock_;
 };
+
+// Writes to standard error. That it cannot be written is no reason to end a run.
+void tell(std::string_view text);
 
 // "4:12", "1:02:03"
 [[nodiscard]] std::string clock_text(double seconds);

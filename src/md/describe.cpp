@@ -21,27 +21,32 @@ const char* method_name(scene::NeighbourMethod method) {
         return "lattice, full mask";
     case scene::NeighbourMethod::lattice_half:
         return "lattice, half mask";
+    case scene::NeighbourMethod::verlet:
+        return "Verlet lists, tiles of 1024 grains, forces and motion in one pass";
     }
     return "";
 }
 
-double bytes_per_grain(const Plan& plan) {
-    const double state =
-        8.0 * (plan.order * (plan.spin ? 3 : 2) + simd::record_fields + simd::force_fields + 4) + 20;
-    const bool lattice = plan.neighbours == scene::NeighbourMethod::lattice ||
-                         plan.neighbours == scene::NeighbourMethod::lattice_half;
-    return state + (lattice ? 8 : 32);
+bool on_lattice(const Plan& plan) {
+    return plan.neighbours == scene::NeighbourMethod::lattice ||
+           plan.neighbours == scene::NeighbourMethod::lattice_half;
 }
 
 } // namespace
+
+double memory_bytes(const Needs& needs, const Plan& plan) {
+    const double state =
+        8.0 * (plan.order * (plan.spin ? 3 : 2) + simd::record_fields + simd::force_fields + 4) + 20;
+    const double per_grain = state + (on_lattice(plan) ? 8 : 32);
+    const double sites = on_lattice(plan) ? static_cast<double>(plan.columns) * plan.rows : 0;
+    return static_cast<double>(needs.grains + needs.poured) * per_grain + sites * 28;
+}
 
 std::string describe(const scene::Scene& scene, const Needs& needs, const Derived& d, const Plan& plan) {
     std::string text;
     const auto line = [&](const char* label, const std::string& value) {
         text += fmt::format("  {:<26}{}\n", label, value);
     };
-    const std::size_t n = needs.grains + needs.poured;
-    const double sites = static_cast<double>(plan.columns) * plan.rows;
     text += fmt::format("{}\n\nScene\n", scene.title.empty() ? "(untitled)" : scene.title);
     line("grains", fmt::format("{} at the start, {} poured", needs.grains, needs.poured));
     line("radii", fmt::format("{:.4g} .. {:.4g} m", needs.radius_min, needs.radius_max));
@@ -56,16 +61,15 @@ std::string describe(const scene::Scene& scene, const Needs& needs, const Derive
                                                 d.restitution_max, scene.md.max_speed));
     line("largest overlap",
          fmt::format("about {:.3g} R_min at {:.3g} m/s", d.overlap_ratio, scene.md.max_speed));
-    line("memory",
-         fmt::format("about {:.3g} MB", (static_cast<double>(n) * bytes_per_grain(plan) + sites * 28) / 1e6));
+    line("memory", fmt::format("about {:.3g} MB", memory_bytes(needs, plan) / 1e6));
     text += "\nPlan\n";
     line("engine", "md, two dimensions");
     line("neighbours", method_name(plan.neighbours));
-    if (plan.neighbours == scene::NeighbourMethod::lattice ||
-        plan.neighbours == scene::NeighbourMethod::lattice_half)
+    if (on_lattice(plan))
         line("lattice", fmt::format("{} x {} sites of {:.4g} x {:.4g} m, mask {}x{}", plan.columns, plan.rows,
                                     plan.site_x, plan.site_y, 2 * plan.reach + 1, 2 * plan.reach + 1));
-    line("integrator", fmt::format("Gear predictor-corrector, {} values", plan.order));
+    line("integrator", plan.order == 3 ? std::string("velocity Verlet")
+                                       : fmt::format("Gear predictor-corrector, {} values", plan.order));
     for (const std::string& reason : plan.chosen) text += "  " + reason + "\n";
     text += "\nSkipped, because the scene does not need it\n";
     for (const std::string& reason : plan.skipped) text += "  " + reason + "\n";

@@ -1,6 +1,7 @@
 #include "md/observables.hpp"
 
 #include "laws/contact.hpp"
+#include "md/near_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,47 +10,6 @@
 namespace sandlane::md {
 
 namespace {
-
-double nearest(double d, double period) {
-    return period > 0 ? d - period * std::nearbyint(d / period) : d;
-}
-
-// Calls body(i, j, dx, dy) for candidate pairs i < j: a cell search over the positions of the state.
-template <class Body> void for_near_pairs(const scene::Scene& scene, const State& state, const Body& body) {
-    const std::size_t n = state.size();
-    if (n < 2) return;
-    const Vec lower = scene.domain.lower, size = scene.domain.upper - lower;
-    const double edge = 2 * *std::max_element(state.radius.begin(), state.radius.end());
-    const double period_x = scene.domain.periodic[0] ? size.x : 0,
-                 period_y = scene.domain.periodic[1] ? size.y : 0;
-    auto columns = static_cast<int>(std::clamp(size.x / edge, 1.0, 4096.0));
-    auto rows = static_cast<int>(std::clamp(size.y / edge, 1.0, 4096.0));
-    if (columns < 3) columns = 1;
-    if (rows < 3) rows = 1;
-    std::vector<std::vector<std::uint32_t>> cells(static_cast<std::size_t>(columns) *
-                                                  static_cast<std::size_t>(rows));
-    const auto place = [](double x, double length, int count) {
-        return std::clamp(static_cast<int>(std::floor(x / length * count)), 0, count - 1);
-    };
-    const auto visit = [&](std::size_t i, const std::vector<std::uint32_t>& others) {
-        for (const std::uint32_t j : others)
-            body(i, std::size_t{j}, nearest(state.value(j, 0, 0) - state.value(i, 0, 0), period_x),
-                 nearest(state.value(j, 1, 0) - state.value(i, 1, 0), period_y));
-    };
-    // Later grains look at the cells filled so far: every pair once.
-    for (std::size_t i = 0; i < n; ++i) {
-        const int column = place(state.value(i, 0, 0) - lower.x, size.x, columns);
-        const int row = place(state.value(i, 1, 0) - lower.y, size.y, rows);
-        for (int r = row - (rows > 1); r <= row + (rows > 1); ++r)
-            for (int c = column - (columns > 1); c <= column + (columns > 1); ++c) {
-                const bool outside_x = c < 0 || c >= columns, outside_y = r < 0 || r >= rows;
-                if ((outside_x && period_x == 0) || (outside_y && period_y == 0)) continue;
-                const int wrapped = (r + rows) % rows * columns + (c + columns) % columns;
-                visit(i, cells[static_cast<std::size_t>(wrapped)]);
-            }
-        cells[static_cast<std::size_t>(row * columns + column)].push_back(static_cast<std::uint32_t>(i));
-    }
-}
 
 struct ContactForce {
     double x, y, overlap, energy;
@@ -123,11 +83,12 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
         o.pressure[i] += inward / (2 * std::numbers::pi * state.radius[i]);
     };
 
-    for_near_pairs(scene, state, [&](std::size_t i, std::size_t j, double dx, double dy) {
+    const auto centre = [&](std::size_t i) { return Vec{state.value(i, 0, 0), state.value(i, 1, 0), 0}; };
+    for_near_pairs(scene, state, centre, [&](std::size_t i, std::size_t j, Vec d) {
         const double reach = state.radius[i] + state.radius[j];
-        if (!(dx * dx + dy * dy < reach * reach)) return;
-        const laws::PairState<double> s{dx,
-                                        dy,
+        if (!(dot(d, d) < reach * reach)) return;
+        const laws::PairState<double> s{d.x,
+                                        d.y,
                                         (state.value(j, 0, 1) - state.value(i, 0, 1)) * rate,
                                         (state.value(j, 1, 1) - state.value(i, 1, 1)) * rate,
                                         spin(i) + spin(j),
@@ -138,28 +99,27 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
         o.elastic += f.energy;
         o.largest_overlap =
             std::max(o.largest_overlap, f.overlap / std::min(state.radius[i], state.radius[j]));
-        const double inward = -(f.x * dx + f.y * dy) / std::sqrt(dx * dx + dy * dy);
+        const double inward = -(f.x * d.x + f.y * d.y) / norm(d);
         press(i, inward);
         press(j, inward);
     });
     if (walls.empty()) return o;
     for (std::size_t i = 0; i < state.size(); ++i)
-        walls.for_touching({state.value(i, 0, 0), state.value(i, 1, 0), 0}, state.radius[i],
-                           [&](std::size_t e, const WallContact& c) {
-                               const laws::PairState<double> s{c.distance * c.direction.x,
-                                                               c.distance * c.direction.y,
-                                                               c.velocity.x - state.value(i, 0, 1) * rate,
-                                                               c.velocity.y - state.value(i, 1, 1) * rate,
-                                                               spin(i) + c.spin,
-                                                               state.radius[i] + c.radius,
-                                                               state.inverse_radius[i] + c.inverse_radius};
-                               const ContactForce f = kernel(
-                                   s, coefficients_of(state.material[i], walls.elements()[e].material));
-                               ++o.wall_contacts;
-                               o.elastic += f.energy;
-                               o.largest_overlap = std::max(o.largest_overlap, f.overlap / state.radius[i]);
-                               press(i, -(f.x * c.direction.x + f.y * c.direction.y));
-                           });
+        walls.for_touching(centre(i), state.radius[i], [&](std::size_t e, const WallContact& c) {
+            const laws::PairState<double> s{c.distance * c.direction.x,
+                                            c.distance * c.direction.y,
+                                            c.velocity.x - state.value(i, 0, 1) * rate,
+                                            c.velocity.y - state.value(i, 1, 1) * rate,
+                                            spin(i) + c.spin,
+                                            state.radius[i] + c.radius,
+                                            state.inverse_radius[i] + c.inverse_radius};
+            const ContactForce f =
+                kernel(s, coefficients_of(state.material[i], walls.elements()[e].material));
+            ++o.wall_contacts;
+            o.elastic += f.energy;
+            o.largest_overlap = std::max(o.largest_overlap, f.overlap / state.radius[i]);
+            press(i, -(f.x * c.direction.x + f.y * c.direction.y));
+        });
     return o;
 }
 

@@ -28,16 +28,25 @@ int order_of(scene::Integrator integrator) {
         return 5;
     case scene::Integrator::gear6:
         return 6;
+    case scene::Integrator::velocity_verlet:
+        return 3;
     }
     return 5;
+}
+
+const char* integrator_name(scene::Integrator integrator) {
+    static const char* names[] = {"gear4", "gear5", "gear6", "velocity-verlet"};
+    return names[static_cast<int>(integrator)];
 }
 
 // Largest stable w dt of the integrator at damping ratio z, interpolated in table 4.6.
 double stable_phase(int order, double z) {
     static constexpr double at[] = {0.0, 0.3, 1.0, 3.0};
-    static constexpr double bound[3][4] = {
-        {1.41, 0.69, 0.26, 0.091}, {0.94, 0.42, 0.148, 0.050}, {0.81, 0.25, 0.081, 0.028}};
-    const double* b = bound[order - 4];
+    static constexpr double bound[4][4] = {{2.0, 1.13, 0.47, 0.166},
+                                           {1.41, 0.69, 0.26, 0.091},
+                                           {0.94, 0.42, 0.148, 0.050},
+                                           {0.81, 0.25, 0.081, 0.028}};
+    const double* b = bound[order - 3];
     for (int n = 1; n < 4; ++n)
         if (z <= at[n]) return b[n - 1] + (b[n] - b[n - 1]) * (z - at[n - 1]) / (at[n] - at[n - 1]);
     return b[3] * at[3] / z;
@@ -45,8 +54,8 @@ double stable_phase(int order, double z) {
 
 // Largest stable dt gamma/m of a pure damping force (3.1).
 double stable_damping(int order) {
-    static constexpr double bound[] = {0.54, 0.30, 0.16};
-    return bound[order - 4];
+    static constexpr double bound[] = {1.0, 0.54, 0.30, 0.16};
+    return bound[order - 3];
 }
 
 struct Stiffness {
@@ -176,17 +185,21 @@ Derived derive(const Scene& scene, const Needs& needs) {
 }
 
 // ---- the plan
-// ---------------------------------------------------------------------------------------------------
 
 namespace {
+
+// Sites are numbered with 32 bits; around the domain there is a halo, and rows are padded.
+constexpr double most_sites = 0x1p31, site_margin = 64;
 
 // Site edges that divide the domain and keep dx^2 + dy^2 <= r_min^2, 2 R_max <= reach min(dx, dy) (items
 // 2-6). Returns false if no reach up to 4 serves.
 bool fit_lattice(const Scene& scene, const Needs& needs, Plan& plan) {
     const Vec size = plan.upper - plan.lower;
     const double edge = (2 - scene.md.delta) * needs.radius_min / std::numbers::sqrt2;
-    plan.columns = static_cast<std::int32_t>(std::ceil(size.x / edge));
-    plan.rows = static_cast<std::int32_t>(std::ceil(size.y / edge));
+    const double columns = std::ceil(size.x / edge), rows = std::ceil(size.y / edge);
+    if (!((columns + site_margin) * (rows + site_margin) < most_sites)) return false;
+    plan.columns = static_cast<std::int32_t>(columns);
+    plan.rows = static_cast<std::int32_t>(rows);
     plan.site_x = size.x / plan.columns;
     plan.site_y = size.y / plan.rows;
     for (plan.reach = 2; plan.reach <= 4; ++plan.reach)
@@ -202,6 +215,13 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     const double ratio = needs.radius_min > 0 ? needs.radius_max / needs.radius_min : 1;
     const bool asks = wanted == NeighbourMethod::lattice || wanted == NeighbourMethod::lattice_half;
     const bool fits = needs.radius_max > 0 && fit_lattice(scene, needs, plan);
+    if (asks && needs.radius_max > 0 && plan.columns == 0)
+        fail(Exit::invalid_input,
+             "md.neighbours = \"lattice\": the domain of {:.4g} x {:.4g} m would have more than {:.3g} "
+             "sites, about {:.3g} m "
+             "wide for the smallest radius. Shrink the domain, or use md.neighbours = \"auto\" or "
+             "\"link-cells\".",
+             plan.upper.x - plan.lower.x, plan.upper.y - plan.lower.y, most_sites, needs.radius_min);
     if (asks && needs.radius_max > 0 && !fits)
         fail(Exit::invalid_input,
              "md.neighbours = \"lattice\": radius ratio {:.4g} and domain do not suit the lattice; with "
@@ -262,11 +282,7 @@ void check_time_step(const Scene& scene, const Derived& derived, double dt) {
          "md.dt = {:.4g} s is above the critical time step {:.4g} s of the stiffest contact with {} "
          "(allowed: 0 to that; "
          "recommended: {:.3g} s). Lower md.dt, leave it out, or soften the material.",
-         dt, derived.critical_dt,
-         scene.md.integrator == scene::Integrator::gear4   ? "gear4"
-         : scene.md.integrator == scene::Integrator::gear5 ? "gear5"
-                                                           : "gear6",
-         derived.recommended_dt);
+         dt, derived.critical_dt, integrator_name(scene.md.integrator), derived.recommended_dt);
 }
 
 } // namespace
@@ -305,7 +321,13 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
              "it could pass through a wall. Lower md.dt below {:.3g} s.",
              plan.dt, scene.md.max_speed, scene.md.max_speed * plan.dt, 0.1 * needs.radius_min,
              0.1 * needs.radius_min / scene.md.max_speed);
-    plan.steps = std::llround(scene.md.duration / plan.dt);
+    const double steps = scene.md.duration / plan.dt;
+    if (!(steps <= 0x1p53))
+        fail(
+            Exit::invalid_input,
+            "md.duration = {:.4g} s: {:.4g} steps of {:.4g} s; allowed: up to 9e15 steps. Lower md.duration.",
+            scene.md.duration, steps, plan.dt);
+    plan.steps = std::llround(steps);
     choose_neighbours(scene, needs, plan);
     plan.chosen.insert(plan.chosen.begin(), fmt::format("kernels: {}; threads: {} ({})", simd::isa_name(isa),
                                                         plan.threads, threads_reason));

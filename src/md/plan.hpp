@@ -63,6 +63,9 @@ struct Plan {
 // Largest R_max/R_min that a mask of the given reach serves: reach (2 - delta)/(2 sqrt 2).
 [[nodiscard]] double lattice_ratio_bound(int reach, double delta);
 
+// Memory of the simulation, bytes.
+[[nodiscard]] double memory_bytes(const Needs& needs, const Plan& plan);
+
 // The text of `sandlane check`.
 [[nodiscard]] std::string describe(const scene::Scene& scene, const Needs& needs, const Derived& derived,
                                    const Plan& plan);

@@ -2,6 +2,7 @@
 #include "core/bytes.hpp"
 #include "md/simulation.hpp"
 
+#include <cmath>
 #include <map>
 
 namespace sandlane::md {
@@ -20,6 +21,22 @@ template <class StateRef, class Body> void for_columns(StateRef& state, const Bo
     body(state.image_x);
     body(state.image_y);
     body(state.id);
+}
+
+// What indexes memory, and what the plan was made for. Corrected positions may lie a fraction of a step
+// outside.
+bool suits(const State& state, const scene::Scene& scene, const Plan& plan, const Needs& needs) {
+    const auto materials = static_cast<std::int32_t>(scene.materials.size());
+    const auto near = [&](double x, double low, double high) {
+        return x > low - needs.radius_min && x < high + needs.radius_min;
+    };
+    for (std::size_t i = 0; i < state.size(); ++i)
+        if (state.material[i] < 0 || state.material[i] >= materials ||
+            !(state.radius[i] >= needs.radius_min && state.radius[i] <= needs.radius_max) ||
+            !near(state.value(i, 0, 0), plan.lower.x, plan.upper.x) ||
+            !near(state.value(i, 1, 0), plan.lower.y, plan.upper.y))
+            return false;
+    return true;
 }
 
 } // namespace
@@ -47,9 +64,10 @@ std::string Simulation::serialise() const {
 }
 
 void Simulation::restore(const std::string& bytes) {
-    const auto damaged = [] { fail(Exit::io, "checkpoint: its state does not belong to its scene"); };
+    const auto damaged = [] { fail(Exit::io, "its state does not belong to its scene"); };
     ByteReader r(bytes);
     step_ = r.get<std::int64_t>();
+    if (step_ < 0 || step_ > std::int64_t{1} << 53) damaged();
     if (r.get<double>() != plan_.dt) damaged();
     const auto method = static_cast<scene::NeighbourMethod>(r.get<std::int32_t>());
     const bool may_switch = r.get<std::int32_t>() != 0;
@@ -58,6 +76,7 @@ void Simulation::restore(const std::string& bytes) {
     if (r.get<std::int32_t>() != state_.order || r.get<std::int32_t>() != state_.dofs) damaged();
     for_columns(state_, [&](auto& column) { r.get_array(column); });
     state_.adopt(plan_);
+    if (!suits(state_, scene_, plan_, needs_)) damaged();
     next_waiting_ = static_cast<std::size_t>(r.get<std::uint64_t>());
     if (r.get<std::uint64_t>() != waiting_.size() || next_waiting_ > waiting_.size()) damaged();
     std::map<std::int64_t, scene::GrainState> by_id;
@@ -67,6 +86,7 @@ void Simulation::restore(const std::string& bytes) {
         if (found == by_id.end()) damaged();
         g = found->second;
         g.insert_at = r.get<double>();
+        if (!(std::isfinite(g.insert_at) && g.insert_at >= 0)) damaged();
     }
     events_.clear();
     const auto events = r.get<std::uint64_t>();
@@ -79,6 +99,7 @@ void Simulation::restore(const std::string& bytes) {
     sorted_ = true;
     state_.refresh_records(plan_.dt);
     walls_.invalidate();
+    lists_.invalidate();
     bin();
 }
 

@@ -1,6 +1,6 @@
 #include "md/walls.hpp"
 
-#include "core/parallel.hpp"
+#include "scene/wall_geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,6 @@ WallContact disc_contact(const WallElement& e, Vec p) {
 } // namespace
 
 // ---- construction
-// ------------------------------------------------------------------------------------------------
 
 Walls::Walls(const scene::Scene& scene, const Plan& plan, const Needs& needs)
     : motions_(scene.motions), rigid_(scene.motions.size()),
@@ -124,7 +123,7 @@ void Walls::add_wall(const scene::Scene& scene, std::size_t index) {
         break;
     }
     case scene::WallKind::grains:
-        add_row(wall, e);
+        add_grains(wall, e);
         break;
     }
 }
@@ -147,36 +146,17 @@ void Walls::add_chain(const std::vector<Vec>& points, bool closed, WallElement p
     }
 }
 
-// Wall grains: listed ones, on a ring, or in a row from the first point to the last.
-void Walls::add_row(const scene::Wall& wall, WallElement prototype) {
+void Walls::add_grains(const scene::Wall& wall, WallElement prototype) {
     prototype.kind = WallElement::Kind::disc;
-    prototype.omega = wall.omega;
-    const auto put = [&](Vec centre, double radius) {
-        prototype.a = prototype.b = centre;
-        prototype.radius = radius;
+    for (const scene::GrainItem& grain : scene::wall_grains(wall)) {
+        prototype.a = prototype.b = grain.position;
+        prototype.radius = grain.radius;
+        prototype.omega = grain.omega;
         reference_.push_back(prototype);
-    };
-    for (const scene::GrainItem& item : wall.items) put(item.position, item.radius);
-    if (!wall.items.empty()) return;
-    const double spacing = wall.spacing > 0 ? wall.spacing : 2 * wall.radius;
-    if (wall.ring_radius > 0) {
-        const double span = wall.angle_to - wall.angle_from;
-        const bool full = span >= two_pi * (1 - 1e-12);
-        const auto n =
-            static_cast<int>(std::floor(span * wall.ring_radius / spacing + 1e-9)) + (full ? 0 : 1);
-        for (int k = 0; k < n; ++k) {
-            const double angle = wall.angle_from + span * k / std::max(1, full ? n : n - 1);
-            put(wall.centre + wall.ring_radius * Vec{std::cos(angle), std::sin(angle), 0}, wall.radius);
-        }
-        return;
     }
-    const Vec from = wall.points.front(), along = wall.points.back() - from;
-    const auto n = static_cast<int>(std::floor(norm(along) / spacing + 1e-9));
-    for (int k = 0; k <= n; ++k) put(n == 0 ? from : from + (spacing * k / norm(along)) * along, wall.radius);
 }
 
 // ---- motion and geometry
-// ------------------------------------------------------------------------------------------
 
 void Walls::move_to(double time) {
     if (motions_.empty()) return;

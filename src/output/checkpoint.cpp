@@ -15,6 +15,22 @@ constexpr std::string_view magic = "SANDLANE";
 constexpr std::uint32_t version = 1;
 constexpr std::size_t header_size = magic.size() + sizeof(std::uint32_t) + 3 * sizeof(std::uint64_t);
 
+Checkpoint read_content(std::string_view content) {
+    ByteReader reader(content);
+    Checkpoint c;
+    c.scene = reader.get_text();
+    c.engine_state = reader.get_text();
+    c.step = reader.get<std::int64_t>();
+    c.wall_seconds = reader.get<double>();
+    const auto bookmarks = reader.get<std::uint64_t>();
+    for (std::uint64_t n = 0; n < bookmarks; ++n) {
+        const std::string key = reader.get_text();
+        c.bookmarks[key] = reader.get_text();
+    }
+    if (!reader.at_end()) fail(Exit::io, "bytes too many");
+    return c;
+}
+
 } // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& c) {
@@ -56,19 +72,13 @@ Checkpoint parse_checkpoint(const std::string& bytes, const std::string& name) {
     const std::string_view content = std::string_view(bytes).substr(header_size);
     if (hash_bytes(content.data(), content.size()) != Hash128{high, low})
         damaged("its checksum does not match");
-    ByteReader reader(content);
-    Checkpoint c;
-    c.scene = reader.get_text();
-    c.engine_state = reader.get_text();
-    c.step = reader.get<std::int64_t>();
-    c.wall_seconds = reader.get<double>();
-    const auto bookmarks = reader.get<std::uint64_t>();
-    for (std::uint64_t n = 0; n < bookmarks; ++n) {
-        const std::string key = reader.get_text();
-        c.bookmarks[key] = reader.get_text();
+    Checkpoint checkpoint;
+    try {
+        checkpoint = read_content(content);
+    } catch (const Error&) {
+        damaged("its content is inconsistent");
     }
-    if (!reader.at_end()) damaged("it has bytes too many");
-    return c;
+    return checkpoint;
 }
 
 } // namespace sandlane::output

@@ -20,14 +20,18 @@ namespace {
 
 constexpr const char* way_out = "Choose another folder with --out or remove it; --resume FILE continues it.";
 
-void make_folder(const fs::path& path) {
+// Returns the topmost folder that had to be created; empty if all were there.
+fs::path make_folder(const fs::path& path) {
+    fs::path made;
     std::error_code status;
+    for (fs::path p = path; !p.empty() && !fs::exists(p, status); p = p.parent_path()) made = p;
     fs::create_directories(path, status);
     if (!status && !fs::is_directory(path, status) && !status)
         status = std::make_error_code(std::errc::not_a_directory);
     if (status)
         fail(Exit::io, "{}: cannot create the folder: {}. Choose another one with --out.", path.string(),
              status.message());
+    return made;
 }
 
 std::string owner(int file) {
@@ -47,22 +51,45 @@ std::string this_process() {
 } // namespace
 
 RunFolder::RunFolder(fs::path path, Start start) : path_(std::move(path)) {
-    make_folder(path_);
+    if (!path_.has_filename()) path_ = path_.parent_path(); // "results/"
+    made_ = make_folder(path_);
     try {
         lock(start);
     } catch (...) {
         if (lock_ >= 0) ::close(lock_);
+        remove_empty();
         throw;
     }
 }
 
 RunFolder::RunFolder(RunFolder&& other) noexcept
-    : path_(std::move(other.path_)), lock_(std::exchange(other.lock_, -1)) {}
+    : path_(std::move(other.path_)), made_(std::exchange(other.made_, {})),
+      lock_(std::exchange(other.lock_, -1)) {}
 
 RunFolder& RunFolder::operator=(RunFolder&& other) noexcept {
     std::swap(path_, other.path_);
+    std::swap(made_, other.made_);
     std::swap(lock_, other.lock_);
     return *this;
+}
+
+// From the folder upwards to the topmost that was made here, as far as they are empty.
+void RunFolder::remove_empty() const noexcept {
+    std::error_code status;
+    for (fs::path p = path_; !made_.empty() && !status; p = p.parent_path()) {
+        fs::remove(p, status);
+        if (p == made_) return;
+    }
+}
+
+// The lock is ours, and so is all that lies beside it in a folder that we made.
+void RunFolder::discard() noexcept {
+    std::error_code ignored;
+    if (made_.empty())
+        fs::remove(path_ / ".lock", ignored);
+    else
+        fs::remove_all(path_, ignored);
+    remove_empty();
 }
 
 RunFolder::~RunFolder() {
@@ -86,8 +113,10 @@ void RunFolder::lock(Start start) {
         fail(Exit::invalid_input, "{}: already holds a run, by {}. {}", path_.string(), owner(lock_),
              way_out);
     const std::string text = this_process();
-    if (::ftruncate(lock_, 0) != 0 || ::pwrite(lock_, text.data(), text.size(), 0) < 0)
-        fail(Exit::io, "{}: cannot write: {}", file.string(), std::strerror(errno));
+    if (::ftruncate(lock_, 0) == 0 && ::pwrite(lock_, text.data(), text.size(), 0) >= 0) return;
+    const int cause = errno;
+    if (created) ::unlink(file.c_str());
+    fail(Exit::io, "{}: cannot write: {}", file.string(), std::strerror(cause));
 }
 
 fs::path RunFolder::checkpoints() const {

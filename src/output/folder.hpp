@@ -18,14 +18,20 @@ public:
     RunFolder& operator=(RunFolder&& other) noexcept;
     ~RunFolder();
 
+    // For a run that could not begin: removes the folder if it was made here, else only its mark.
+    void discard() noexcept;
+
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
     [[nodiscard]] std::filesystem::path checkpoints() const; // created on first use
 
 private:
     void lock(Start start);
 
+    void remove_empty() const noexcept;
+
     std::filesystem::path path_;
-    int lock_ = -1; // file descriptor
+    std::filesystem::path made_; // topmost folder that this run created; empty: it was there
+    int lock_ = -1;              // file descriptor
 };
 
 } // namespace sandlane::output

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "scene/schema.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -103,8 +104,12 @@ Table<T>& Table<T>::choices(std::string name, std::vector<E> T::*member, const C
                        if (v.kind != Value::Kind::array)
                            fail_at(v, path, "must be a list of " + choice_type(choices));
                        (t.*member).clear();
-                       for (const Value& item : v.items)
-                           (t.*member).push_back(static_cast<E>(read_choice(item, path, choices)));
+                       for (const Value& item : v.items) {
+                           const E chosen = static_cast<E>(read_choice(item, path, choices));
+                           if (std::count((t.*member).begin(), (t.*member).end(), chosen) > 0)
+                               fail_at(item, path, fmt::format("\"{}\" is there twice", item.text));
+                           (t.*member).push_back(chosen);
+                       }
                    },
                    [=](const T& t) {
                        std::vector<std::string> items;

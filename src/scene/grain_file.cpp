@@ -1,6 +1,5 @@
 // Grains read from a file: CSV with a header line, or the book's format.
 #include "core/error.hpp"
-#include "core/file.hpp"
 #include "scene/book_format.hpp"
 #include "scene/population.hpp"
 
@@ -8,7 +7,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 namespace sandlane::scene {
 
@@ -158,10 +156,8 @@ std::vector<GrainState> free_grains(const Book& book, const GrainState& prototyp
 
 } // namespace
 
-std::vector<GrainState> grains_of_file(const Scene& scene, const Grains& grains,
-                                       const GrainState& prototype) {
-    const std::filesystem::path path = std::filesystem::path(scene.folder) / grains.file;
-    const std::string text = read_file(path), file = path.string();
+std::vector<GrainState> parse_grains(const std::string& text, const std::string& file, const Scene& scene,
+                                     const Grains& grains, const GrainState& prototype) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     const bool csv = first == std::string::npos || std::isalpha(static_cast<unsigned char>(text[first])) != 0;
     if (csv) return CsvReader(scene, grains, prototype, file).read(text);

@@ -1,12 +1,15 @@
 #include "scene/initial_state.hpp"
 
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "scene/cell_grid.hpp"
 #include "scene/population.hpp"
 #include "scene/wall_geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <numbers>
 
 namespace sandlane::scene {
@@ -22,9 +25,21 @@ public:
         for (const GrainState& g : grains) largest_ = std::max(largest_, g.radius);
     }
 
+    // One grain, before others are placed around it.
+    void check_one(const GrainState& g) const {
+        check_place(g);
+        const double numbers[] = {g.velocity.x, g.velocity.y, g.angle, g.omega, g.radius};
+        const bool finite =
+            std::all_of(std::begin(numbers), std::end(numbers), [](double x) { return std::isfinite(x); });
+        if (!finite || !std::isnormal(g.mass) || g.insert_at == std::numeric_limits<double>::infinity())
+            fail(Exit::invalid_input,
+                 "{}: velocity ({}, {}) m/s, spin {} rad/s, mass {} kg, time {} s: beyond the range of "
+                 "numbers",
+                 name(g), g.velocity.x, g.velocity.y, g.omega, g.mass, g.insert_at);
+    }
+
     void check() const {
         check_periods();
-        for (const GrainState& g : grains_) check_place(g);
         check_overlaps();
         check_walls();
     }
@@ -121,6 +136,23 @@ private:
     double largest_ = 0;
 };
 
+// Before anything is allocated. Engines number grains with 32 bits.
+void check_number(const Scene& scene) {
+    const double most = std::numeric_limits<std::int32_t>::max();
+    double total = 0;
+    for (std::size_t p = 0; p < scene.grains.size(); ++p) {
+        const double count = expected_grains(scene, p);
+        total += count;
+        if (!(total <= most))
+            fail(Exit::invalid_input,
+                 "{}: {:.4g} grains; allowed: up to {} in all populations together. Lower counts, count or "
+                 "packing_fraction.",
+                 population_name(scene, p), count, most);
+    }
+    require_memory(2 * total * sizeof(GrainState),
+                   fmt::format("grains: the start state of {:.4g} grains", total));
+}
+
 } // namespace
 
 double grain_mass(const Scene& scene, const Grains& population, int material, double radius) {
@@ -132,14 +164,19 @@ double grain_mass(const Scene& scene, const Grains& population, int material, do
 }
 
 std::vector<GrainState> initial_grains(const Scene& scene) {
+    check_number(scene);
     std::vector<GrainState> grains;
     std::vector<std::size_t> from;
-    for (std::size_t p = 0; p < scene.grains.size(); ++p)
+    for (std::size_t p = 0; p < scene.grains.size(); ++p) {
+        const std::size_t first = grains.size();
         for (GrainState& g : population(scene, p, grains)) {
             g.id = static_cast<std::int64_t>(grains.size());
             grains.push_back(g);
             from.push_back(p);
         }
+        const Checker checker(scene, grains, from);
+        for (std::size_t i = first; i < grains.size(); ++i) checker.check_one(grains[i]);
+    }
     if (!grains.empty()) Checker(scene, grains, from).check();
     return grains;
 }

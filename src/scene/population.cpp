@@ -1,6 +1,7 @@
 #include "scene/population.hpp"
 
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "core/rng.hpp"
 #include "scene/packing.hpp"
 #include "scene/radius_law.hpp"
@@ -18,15 +19,21 @@ int material_index(const Scene& scene, const std::string& name) {
     return 0;
 }
 
+struct Region {
+    Vec lower, upper;
+};
+
+Region region(const Scene& scene, const Grains& grains) {
+    if (grains.lower == grains.upper) return {scene.domain.lower, scene.domain.upper};
+    return {grains.lower, grains.upper};
+}
+
 class Maker {
 public:
     Maker(const Scene& scene, std::size_t index)
         : scene_(scene), grains_(scene.grains[index]), index_(static_cast<std::uint32_t>(index)),
-          name_(population_name(scene, index)), lower_(grains_.lower), upper_(grains_.upper) {
-        if (lower_ == upper_) {
-            lower_ = scene.domain.lower;
-            upper_ = scene.domain.upper;
-        }
+          name_(population_name(scene, index)), lower_(region(scene, grains_).lower),
+          upper_(region(scene, grains_).upper) {
         prototype_.material = material_index(scene, grains_.material);
         prototype_.omega = grains_.omega;
     }
@@ -144,7 +151,8 @@ private:
     }
 
     [[nodiscard]] std::vector<GrainState> file() const {
-        std::vector<GrainState> grains = grains_of_file(scene_, grains_, prototype_);
+        std::vector<GrainState> grains =
+            parse_grains(read_file(grains_.file), grains_.file, scene_, grains_, prototype_);
         for (std::size_t i = 0; i < grains.size(); ++i)
             if (grains[i].radius == 0) grains[i].radius = radius(i);
         return grains;
@@ -174,6 +182,27 @@ private:
 };
 
 } // namespace
+
+double expected_grains(const Scene& scene, std::size_t index) {
+    const Grains& g = scene.grains[index];
+    const auto [lower, upper] = region(scene, g);
+    switch (g.kind) {
+    case GrainKind::lattice:
+        return static_cast<double>(g.counts[0]) * static_cast<double>(g.counts[1]);
+    case GrainKind::random:
+        if (g.count == 0)
+            return g.packing_fraction * (upper.x - lower.x) * (upper.y - lower.y) /
+                   (std::numbers::pi * g.sizes.min * g.sizes.max);
+        return static_cast<double>(g.count);
+    case GrainKind::pour:
+        return static_cast<double>(g.count);
+    case GrainKind::list:
+        return static_cast<double>(g.items.size());
+    case GrainKind::file:
+        return 0;
+    }
+    return 0;
+}
 
 std::string population_name(const Scene& scene, std::size_t index) {
     const std::string& name = scene.grains[index].name;

@@ -13,12 +13,18 @@ namespace sandlane::scene {
 [[nodiscard]] std::vector<GrainState> population(const Scene& scene, std::size_t index,
                                                  const std::vector<GrainState>& placed);
 
+// How many grains the population asks for, as far as the scene tells (a file: 0); with a packing fraction,
+// about.
+[[nodiscard]] double expected_grains(const Scene& scene, std::size_t index);
+
 // "grains[2] "beads"" for messages.
 [[nodiscard]] std::string population_name(const Scene& scene, std::size_t index);
 
 // Grains of a file: CSV with a header line of column names, or free grains of the book's 25-column format.
-// Columns that the file lacks are left at what `prototype` says.
-[[nodiscard]] std::vector<GrainState> grains_of_file(const Scene& scene, const Grains& grains,
-                                                     const GrainState& prototype);
+// Columns that the file lacks are left at what `prototype` says. Throws Error(invalid_input) "file:line:
+// ...".
+[[nodiscard]] std::vector<GrainState> parse_grains(const std::string& text, const std::string& file,
+                                                   const Scene& scene, const Grains& grains,
+                                                   const GrainState& prototype);
 
 } // namespace sandlane::scene

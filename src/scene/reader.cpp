@@ -11,7 +11,6 @@ namespace sandlane::scene {
 namespace {
 
 // ---- overrides
-// ----------------------------------------------------------------------------------------------------
 
 std::vector<std::string> split_path(const std::string& path) {
     std::vector<std::string> parts(1);
@@ -33,13 +32,14 @@ void set_origin(Value& value, const std::string& origin) {
 
 // The right-hand side is TOML; a bare word that is not TOML is a text.
 Value override_value(const std::string& text, const std::string& origin) {
-    Value value;
+    Value table;
     try {
-        value = parse_toml("value = " + text + "\n", origin).members.at(0).second;
+        table = parse_toml("value = " + text + "\n", origin);
     } catch (const Error&) {
-        value.kind = Value::Kind::text;
-        value.text = text;
+        table = {};
     }
+    if (table.members.size() != 1) table = parse_toml("value = " + scene::quoted(text) + "\n", origin);
+    Value value = std::move(table.members.front().value);
     set_origin(value, origin);
     return value;
 }
@@ -64,8 +64,8 @@ void apply_override(Value& root, const std::string& text) {
         if (at->kind != Value::Kind::table)
             fail(Exit::invalid_input, "{}: there is nothing below \"{}\"", origin, part);
         if (at->find(part) == nullptr) {
-            at->members.emplace_back(part, Value{});
-            at->members.back().second.origin = origin;
+            at->members.push_back({part, Value{}});
+            at->members.back().value.origin = origin;
         }
         at = at->find(part);
     }
@@ -73,7 +73,6 @@ void apply_override(Value& root, const std::string& text) {
 }
 
 // ---- from the tree to the structs
-// -----------------------------------------------------------------------------------
 
 template <class T>
 void read_list(std::vector<T>& list, const Table<T>& table, const Value& value, const std::string& name) {
@@ -105,7 +104,7 @@ Scene scene_from(const Value& root) {
         else if (key == "output")
             output_table().read(scene.output, value, key);
         else
-            rest.members.emplace_back(key, value);
+            rest.members.push_back({key, value});
     }
     std::vector<std::string> known = {"domain", "materials", "pairs", "grains",
                                       "walls",  "motions",   "md",    "output"};
@@ -138,7 +137,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const Override
 
 Scene read_scene(const std::filesystem::path& path, const Overrides& overrides) {
     Scene scene = parse_scene(read_file(path), path.string(), overrides);
-    scene.folder = path.parent_path().string();
+    for (Grains& g : scene.grains) // a checkpoint is continued from another folder
+        if (!g.file.empty())
+            g.file = std::filesystem::absolute(path.parent_path() / g.file).lexically_normal().string();
     return scene;
 }
 
@@ -153,18 +154,6 @@ std::string write_scene(const Scene& scene) {
     text += "\n[md]\n" + md_table().write(scene.md);
     text += "\n[output]\n" + output_table().write(scene.output);
     return text;
-}
-
-std::string scene_reference() {
-    return "# Scene reference\n\nGenerated from the schema (`sandlane --help-scene`). Numbers are SI, or "
-           "texts with a unit such as "
-           "`\"5 mm\"`.\n\n" +
-           scene_table().reference("(top level)") + domain_table().reference("[domain]") +
-           material_table().reference("[[materials]]") + pair_table().reference("[[pairs]]") +
-           grains_table().reference("[[grains]]") +
-           item_table().reference("items of [[grains]] and [[walls]]") + wall_table().reference("[[walls]]") +
-           motion_table().reference("[[motions]]") + md_table().reference("[md]") +
-           output_table().reference("[output]");
 }
 
 } // namespace sandlane::scene

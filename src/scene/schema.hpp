@@ -71,6 +71,10 @@ private:
     std::vector<Field<T>> fields_;
 };
 
+// Choices that the command line and outputs spell too.
+const Choices& neighbour_choices();
+const Choices& colour_choices();
+
 const Table<Domain>& domain_table();
 const Table<Material>& material_table();
 const Table<MaterialPair>& pair_table();

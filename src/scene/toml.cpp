@@ -14,7 +14,7 @@ Value convert(const toml::node& node, const std::string& file, std::uint32_t par
     v.origin = line != 0 ? fmt::format("{}:{}", file, line) : file;
     if (const auto* table = node.as_table()) {
         for (const auto& [key, item] : *table)
-            v.members.emplace_back(std::string(key.str()), convert(item, file, line));
+            v.members.push_back({std::string(key.str()), convert(item, file, line)});
     } else if (const auto* array = node.as_array()) {
         v.kind = Value::Kind::array;
         for (const toml::node& item : *array) v.items.push_back(convert(item, file, line));

@@ -99,7 +99,7 @@ bool parse_unit(std::string_view text, bool angular, double& factor, Dimension& 
         int power = 1;
         if (!text.empty() && text.front() == '^') {
             const auto [stop, error] = std::from_chars(text.data() + 1, text.data() + text.size(), power);
-            if (error != std::errc{}) return false;
+            if (error != std::errc{} || std::abs(power) > 9) return false;
             text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
         }
         const Named* found = nullptr;

@@ -2,8 +2,11 @@
 // that the chosen laws read.
 #include "core/error.hpp"
 #include "scene/schema.hpp"
+#include "scene/wall_geometry.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace sandlane::scene {
 
@@ -35,8 +38,9 @@ struct Validator {
 
     void check_domain() const {
         const Vec size = scene.domain.upper - scene.domain.lower;
-        if (!(size.x > 0 && size.y > 0))
-            reject("domain: upper = [{}, {}] must lie above lower = [{}, {}] in both directions",
+        if (!(size.x > 0 && size.y > 0 && std::isfinite(size.x) && std::isfinite(size.y)))
+            reject("domain: upper = [{}, {}] must lie above lower = [{}, {}] in both directions, at a finite "
+                   "distance",
                    scene.domain.upper.x, scene.domain.upper.y, scene.domain.lower.x, scene.domain.lower.y);
     }
 
@@ -72,25 +76,49 @@ struct Validator {
             g.kind == GrainKind::lattice || g.kind == GrainKind::random || g.kind == GrainKind::pour;
         if (sized && !(g.sizes.min > 0)) reject("{}.radius: is missing", path);
         if (g.kind == GrainKind::lattice && (g.spacing.x <= 0 || g.spacing.y <= 0) &&
-            g.counts[0] * g.counts[1] > 1)
+            (g.counts[0] > 1 || g.counts[1] > 1))
             reject("{}.spacing: [{}, {}] must be above 0 in both directions", path, g.spacing.x, g.spacing.y);
         if (g.kind == GrainKind::pour && !(g.rate > 0))
             reject("{}.rate: {} must be above 0 grains per second", path, g.rate);
         if (g.kind == GrainKind::file && g.file.empty()) reject("{}.file: is missing", path);
-        if (g.upper.x < g.lower.x || g.upper.y < g.lower.y)
-            if (g.kind != GrainKind::lattice) reject("{}: upper must not lie below lower", path);
+        const bool in_region = g.kind == GrainKind::random || g.kind == GrainKind::pour;
+        if (in_region && (g.upper.x < g.lower.x || g.upper.y < g.lower.y))
+            reject("{}.upper: [{}, {}] must not lie below lower = [{}, {}]", path, g.upper.x, g.upper.y,
+                   g.lower.x, g.lower.y);
+    }
+
+    void need_points(const Wall& w, const std::string& path, std::size_t least) const {
+        if (w.points.size() < least)
+            reject("{}.points: has {} points; kind needs {} or more", path, w.points.size(), least);
+    }
+
+    void need_radius(const Wall& w, const std::string& path) const {
+        if (!(w.radius > 0)) reject("{}.radius: {} must be above 0 m", path, w.radius);
+    }
+
+    void need_angles(const Wall& w, const std::string& path) const {
+        if (!(w.angle_to > w.angle_from))
+            reject("{}.angle_to: {} must be above angle_from = {} rad", path, w.angle_to, w.angle_from);
+    }
+
+    void check_wall_grains(const Wall& w, const std::string& path) const {
+        need_radius(w, path);
+        if (w.ring_radius > 0)
+            need_angles(w, path);
+        else
+            need_points(w, path, 1);
+        const double most = 1e7, count = wall_grain_count(w);
+        if (!(count <= most))
+            reject("{}.spacing: {} m makes {:.3g} wall grains; allowed: up to {:.0e}. Increase spacing or "
+                   "radius.",
+                   path, w.spacing > 0 ? w.spacing : 2 * w.radius, count, most);
     }
 
     void check_wall(const Wall& w, const std::string& path) const {
         material_exists(w.material, path);
-        const auto need_points = [&](std::size_t least) {
-            if (w.points.size() < least)
-                reject("{}.points: has {} points; kind needs {}{}", path, w.points.size(), least,
-                       least > 1 ? " or more" : "");
-        };
         switch (w.kind) {
         case WallKind::plane:
-            need_points(1);
+            need_points(w, path, 1);
             if (norm(w.normal) == 0)
                 reject("{}.normal: is missing; a plane needs the direction of its free side", path);
             break;
@@ -99,17 +127,14 @@ struct Validator {
                 reject("{}.points: has {} points; a segment has 2", path, w.points.size());
             break;
         case WallKind::polyline:
-            need_points(2);
+            need_points(w, path, 2);
             break;
         case WallKind::arc:
-            if (!(w.radius > 0)) reject("{}.radius: {} must be above 0 m", path, w.radius);
-            if (!(w.angle_to > w.angle_from))
-                reject("{}.angle_to: {} must be above angle_from = {} rad", path, w.angle_to, w.angle_from);
+            need_radius(w, path);
+            need_angles(w, path);
             break;
         case WallKind::grains:
-            if (!w.items.empty()) break;
-            if (!(w.radius > 0)) reject("{}.radius: {} must be above 0 m", path, w.radius);
-            if (w.ring_radius == 0) need_points(1);
+            if (w.items.empty()) check_wall_grains(w, path);
             break;
         }
         for (std::size_t n = 1; n < w.points.size(); ++n)

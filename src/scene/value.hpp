@@ -8,6 +8,8 @@
 
 namespace sandlane::scene {
 
+struct Member;
+
 struct Value {
     enum class Kind { flag, integer, number, text, array, table };
     Kind kind = Kind::table;
@@ -15,25 +17,33 @@ struct Value {
     std::int64_t integer = 0;
     double number = 0;
     std::string text;
-    std::vector<Value> items;                           // array
-    std::vector<std::pair<std::string, Value>> members; // table, in the order of the file
-    std::string origin;                                 // "heap.toml:14" or "--set md.dt"
+    std::vector<Value> items;    // array
+    std::vector<Member> members; // table, in the order of the file
+    std::string origin;          // "heap.toml:14" or "--set md.dt"
 
-    [[nodiscard]] const Value* find(const std::string& key) const {
-        for (const auto& [name, value] : members)
-            if (name == key) return &value;
-        return nullptr;
-    }
-    [[nodiscard]] Value* find(const std::string& key) {
-        for (auto& [name, value] : members)
-            if (name == key) return &value;
-        return nullptr;
-    }
+    // The member of a table; null if it has none of that name.
+    [[nodiscard]] const Value* find(const std::string& key) const;
+    [[nodiscard]] Value* find(const std::string& key);
     [[nodiscard]] bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
     [[nodiscard]] double as_number() const {
         return kind == Kind::integer ? static_cast<double>(integer) : number;
     }
 };
+
+struct Member {
+    std::string name;
+    Value value;
+};
+
+inline const Value* Value::find(const std::string& key) const {
+    for (const auto& [name, value] : members)
+        if (name == key) return &value;
+    return nullptr;
+}
+
+inline Value* Value::find(const std::string& key) {
+    return const_cast<Value*>(std::as_const(*this).find(key));
+}
 
 // Throws Error(invalid_input) for a syntax error or a duplicated key, with file and line.
 [[nodiscard]] Value parse_toml(const std::string& text, const std::string& file);

@@ -14,11 +14,23 @@ Vec direction(double angle) {
     return {std::cos(angle), std::sin(angle), 0};
 }
 
-std::vector<GrainItem> ring(const Wall& wall, double spacing) {
+double spacing_of(const Wall& wall) {
+    return wall.spacing > 0 ? wall.spacing : 2 * wall.radius;
+}
+
+// A length that is a multiple of the spacing up to rounding counts as one.
+double intervals(double length, double spacing) {
+    return std::floor(length / spacing + 1e-9);
+}
+
+bool is_full_ring(const Wall& wall) {
+    return wall.angle_to - wall.angle_from >= two_pi * (1 - 1e-12);
+}
+
+std::vector<GrainItem> ring(const Wall& wall) {
     const double span = wall.angle_to - wall.angle_from;
-    const bool full = span >= two_pi * (1 - 1e-12);
-    // 1e-9: a length that is a multiple of the spacing up to rounding counts as one.
-    const auto n = static_cast<int>(std::floor(span * wall.ring_radius / spacing + 1e-9)) + (full ? 0 : 1);
+    const bool full = is_full_ring(wall);
+    const int n = static_cast<int>(wall_grain_count(wall));
     std::vector<GrainItem> grains;
     for (int k = 0; k < n; ++k) {
         const double angle = wall.angle_from + span * k / std::max(1, full ? n : n - 1);
@@ -27,12 +39,12 @@ std::vector<GrainItem> ring(const Wall& wall, double spacing) {
     return grains;
 }
 
-std::vector<GrainItem> row(const Wall& wall, double spacing) {
+std::vector<GrainItem> row(const Wall& wall) {
     const Vec from = wall.points.front(), along = wall.points.back() - from;
-    const double length = norm(along);
-    const auto n = static_cast<int>(std::floor(length / spacing + 1e-9));
+    const double length = norm(along), spacing = spacing_of(wall);
+    const int n = static_cast<int>(wall_grain_count(wall));
     std::vector<GrainItem> grains;
-    for (int k = 0; k <= n; ++k)
+    for (int k = 0; k < n; ++k)
         grains.push_back(
             {k == 0 ? from : from + (spacing * k / length) * along, {}, wall.radius, wall.omega});
     return grains;
@@ -125,8 +137,15 @@ std::vector<GrainItem> wall_grains(const Wall& wall) {
         for (GrainItem& grain : grains) grain.omega += wall.omega;
         return grains;
     }
-    const double spacing = wall.spacing > 0 ? wall.spacing : 2 * wall.radius;
-    return wall.ring_radius > 0 ? ring(wall, spacing) : row(wall, spacing);
+    return wall.ring_radius > 0 ? ring(wall) : row(wall);
+}
+
+double wall_grain_count(const Wall& wall) {
+    if (!wall.items.empty()) return static_cast<double>(wall.items.size());
+    if (wall.ring_radius > 0)
+        return intervals((wall.angle_to - wall.angle_from) * wall.ring_radius, spacing_of(wall)) +
+               (is_full_ring(wall) ? 0 : 1);
+    return intervals(norm(wall.points.back() - wall.points.front()), spacing_of(wall)) + 1;
 }
 
 Gap gap(const WallPiece& piece, Vec p) {

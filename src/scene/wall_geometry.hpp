@@ -9,6 +9,8 @@ namespace sandlane::scene {
 
 // The grains of a wall of kind `grains`: listed ones, a ring, or a row from the first point to the last.
 [[nodiscard]] std::vector<GrainItem> wall_grains(const Wall& wall);
+// How many they are; a double because the spacing may be as small as it likes.
+[[nodiscard]] double wall_grain_count(const Wall& wall);
 
 struct WallPiece {
     enum class Kind { plane, segment, arc, disc };

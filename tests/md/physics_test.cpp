@@ -254,6 +254,22 @@ TEST(Guards, SharedSiteIsAnErrorOrASwitch) {
     EXPECT_NEAR(tolerant.observe().largest_overlap, (0.03 - std::hypot(0.016, 0.014)) / 0.015, 1e-12);
 }
 
+TEST(Guards, CoincidentCentresNameBothGrains) { // d = 0: never a division that goes on
+    scene::Scene s = empty_scene();
+    s.materials[0].stiffness = 1e5;
+    s.md.dt = 1e-5;
+    s.md.neighbours = scene::NeighbourMethod::link_cells;
+    try {
+        simulate(s, {grain(0, {0.5, 0, 0}, {}, 0.01, 1e-3), grain(1, {0.1, 0.2, 0}, {}, 0.01, 1e-3),
+                     grain(2, {0.1, 0.2, 0}, {}, 0.01, 1e-3)});
+        FAIL() << "no error";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), Exit::unstable);
+        EXPECT_NE(std::string(e.what()).find("grains 1 and 2 overlap by 0.02 m"), std::string::npos)
+            << e.what();
+    }
+}
+
 TEST(Domain, LeavingGrainsAreRemovedAndCounted) {
     scene::Scene s = empty_scene();
     s.materials[0].stiffness = 1e5;

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "scene/reader.hpp"
+#include "support/says.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +38,5 @@ template <class Action> std::string refusal(const Action& action) {
 inline std::string refusal_of(const std::string& text, const Overrides& overrides = {}) {
     return refusal([&] { (void)parse_scene(text, "test.toml", overrides); });
 }
-
-#define EXPECT_SAYS(message, part) EXPECT_NE((message).find(part), std::string::npos) << (message)
 
 } // namespace sandlane::scene

@@ -1,0 +1,109 @@
+// Checkpoints. Odd first byte: the rest is a file, read as it is and with its header made to fit. Even: the
+// rest is a list of patches (offset, eight bytes) of the state of a small run, behind the checksum.
+#include "core/bytes.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "md/simulation.hpp"
+#include "output/checkpoint.hpp"
+#include "scene/reader.hpp"
+
+#include <cstring>
+
+using namespace sandlane;
+
+namespace {
+
+constexpr std::size_t header_size = 36; // magic, version, length, checksum
+
+constexpr const char* scene_text = R"(
+[domain]
+lower = [0, 0]
+upper = [1, 1]
+periodic = ["x"]
+gravity = [0, -1]
+[[materials]]
+name = "glass"
+young = 1e6
+friction = 0.5
+tangential_damping = 0.1
+[[grains]]
+kind = "lattice"
+radius = { law = "uniform", min = 0.045, max = 0.05 }
+lower = [0.1, 0.1]
+counts = [4, 3]
+spacing = [0.2, 0.2]
+[[grains]]
+kind = "pour"
+radius = 0.05
+count = 3
+rate = 1000
+lower = [0.1, 0.8]
+upper = [0.9, 0.9]
+[[walls]]
+kind = "segment"
+points = [[0, 0.02], [1, 0.02]]
+[md]
+neighbours = "lattice"
+max_speed = 0.1
+)";
+
+md::Simulation new_run() {
+    const scene::Scene s = scene::parse_scene(scene_text, "fuzz.toml");
+    const auto grains = scene::initial_grains(s);
+    const md::Needs needs = md::analyse(s, grains);
+    return {s, grains, needs, md::make_plan(s, needs, md::derive(s, needs), simd::Isa::scalar, {1, "fuzz"})};
+}
+
+void read_file_of(std::string bytes) {
+    try {
+        (void)output::parse_checkpoint(bytes, "fuzz.checkpoint");
+    } catch (const Error&) {
+    }
+    if (bytes.size() < header_size) return;
+    const std::string_view content = std::string_view(bytes).substr(header_size);
+    const Hash128 hash = hash_bytes(content.data(), content.size());
+    ByteWriter header;
+    header.put(std::uint32_t{1});
+    header.put(static_cast<std::uint64_t>(content.size()));
+    header.put(hash.high);
+    header.put(hash.low);
+    bytes.replace(0, header_size, "SANDLANE" + header.bytes());
+    (void)output::parse_checkpoint(bytes, "fuzz.checkpoint");
+}
+
+void restore_patched(const std::uint8_t* data, std::size_t size) {
+    static const md::Simulation fresh = new_run();
+    static const std::string state = [] {
+        md::Simulation run = fresh;
+        run.run(10);
+        return run.serialise();
+    }();
+    std::string bytes = state;
+    constexpr std::size_t patch = 10;
+    for (; size >= patch; data += patch, size -= patch) {
+        std::uint16_t offset = 0;
+        std::memcpy(&offset, data, sizeof offset);
+        const std::size_t at = offset % (bytes.size() - 8);
+        std::memcpy(bytes.data() + at, data + 2, 8);
+    }
+    if (size > 0) bytes.resize(bytes.size() * data[0] / 255);
+    md::Simulation simulation = fresh;
+    simulation.restore(bytes);
+    (void)simulation.state_hash();
+    simulation.run(3);
+    (void)simulation.snapshot();
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size == 0) return 0;
+    try {
+        if (data[0] % 2 != 0)
+            read_file_of(std::string(reinterpret_cast<const char*>(data + 1), size - 1));
+        else
+            restore_patched(data + 1, size - 1);
+    } catch (const Error&) {
+    }
+    return 0;
+}

@@ -1,0 +1,22 @@
+// Files of grains.
+#include "core/error.hpp"
+#include "scene/population.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+using namespace sandlane;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    scene::Scene s;
+    for (const char* name : {"glass", "steel"}) s.materials.emplace_back().name = name;
+    s.grains.emplace_back().kind = scene::GrainKind::file;
+    try {
+        const std::string text(reinterpret_cast<const char*>(data), size);
+        for (const scene::GrainState& g : scene::parse_grains(text, "fuzz.csv", s, s.grains[0], {}))
+            if (!(g.radius > 0 && std::isfinite(g.position.x)) || g.material < 0 || g.material > 1)
+                std::abort();
+    } catch (const Error&) {
+    }
+    return 0;
+}
