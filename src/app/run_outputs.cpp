@@ -156,7 +156,7 @@ std::string RunOutputs::write_checkpoint(const md::Simulation& sim) {
 
 std::string RunOutputs::finish(const md::Simulation& sim, bool stopped, const std::string& summary,
                                double rate) {
-    const std::string checkpoint = write_checkpoint(sim);
+    std::string checkpoint = write_checkpoint(sim);
     write_file_atomically(folder_.path() / "summary.json", summary + "\n");
     if (stopped) return checkpoint;
     if (pictures_->count() > 0 && scene_.output.movie) write_movie();

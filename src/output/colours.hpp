@@ -6,6 +6,7 @@
 #include "scene/scene.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,7 @@ struct Rgb {
 [[nodiscard]] const std::array<Rgb, 256>& colour_map();
 [[nodiscard]] inline Rgb map_colour(double unit) {
     const double clamped = unit > 0 ? (unit < 1 ? unit : 1) : 0;
-    return colour_map()[static_cast<std::size_t>(clamped * 255 + 0.5)];
+    return colour_map()[static_cast<std::size_t>(std::lround(clamped * 255))];
 }
 
 struct Quantity {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <string_view>
 
@@ -19,7 +20,7 @@ constexpr std::size_t most_rows = 2000;          // of the log: more than a plot
 
 std::string colour_map_digits() {
     std::string digits;
-    const auto byte = [](float value) { return static_cast<int>(value * 255 + 0.5F); };
+    const auto byte = [](float value) { return std::lround(value * 255); };
     for (const Rgb& c : colour_map())
         digits += fmt::format("{:02x}{:02x}{:02x}", byte(c.r), byte(c.g), byte(c.b));
     return digits;

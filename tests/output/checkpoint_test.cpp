@@ -26,7 +26,7 @@ std::string sample_bytes(const sample::Folder& folder) {
 }
 
 std::string refusal_of_bytes(const std::string& bytes) {
-    const std::string message = refusal(Exit::io, [&] { (void)parse_checkpoint(bytes, "some.checkpoint"); });
+    std::string message = refusal(Exit::io, [&] { (void)parse_checkpoint(bytes, "some.checkpoint"); });
     EXPECT_TRUE(has(message, "some.checkpoint: ")) << message;
     return message;
 }

@@ -18,7 +18,7 @@ const std::vector<analysis::LogColumn> columns{{"time", "s"}, {"kinetic_energy",
 
 std::string refusal_of_text(const sample::Folder& folder, const std::string& text) {
     write_file_atomically(folder / "log.csv", text);
-    const std::string message = refusal(Exit::invalid_input, [&] { (void)read_log(folder / "log.csv"); });
+    std::string message = refusal(Exit::invalid_input, [&] { (void)read_log(folder / "log.csv"); });
     EXPECT_TRUE(has(message, (folder / "log.csv").string())) << message;
     return message;
 }
@@ -27,7 +27,7 @@ std::string refusal_of_text(const sample::Folder& folder, const std::string& tex
 
 TEST(Log, HeaderNamesColumnsAndUnits) {
     const sample::Folder folder("log-header");
-    LogWriter(folder / "log.csv", columns);
+    const LogWriter writer(folder / "log.csv", columns);
     EXPECT_EQ(lines_of(folder / "log.csv"), (std::vector<std::string>{"time[s],kinetic_energy[J],note"}));
     const analysis::Log log = read_log(folder / "log.csv");
     ASSERT_EQ(log.columns.size(), 3U);

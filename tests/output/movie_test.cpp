@@ -31,7 +31,7 @@ private:
 
 // A run folder whose name a shell would take apart, with two pictures.
 fs::path make_run(const sample::Folder& folder) {
-    const fs::path run = folder / "it's a run";
+    fs::path run = folder / "it's a run";
     fs::create_directories(run / "pictures");
     for (const char* name : {"000000.png", "000001.png"}) write_file_atomically(run / "pictures" / name, "");
     return run;

@@ -161,8 +161,7 @@ TEST(Replay, EveryTruncationInsideAFrameIsRefused) {
 }
 
 TEST(Replay, PackedFramesUnpack) {
-    std::vector<ReplayFrame> frames;
-    for (int n = 0; n < 5; ++n) frames.push_back(make_replay_frame(sample::walled_row(n)));
+    auto frames = sample::frames([](int n) { return make_replay_frame(sample::walled_row(n)); }, 5);
     frames.push_back(frames.back()); // walls that stand still
     frames.push_back(make_replay_frame(noise(6, 3)));
     frames.push_back(make_replay_frame(noise(7, 50)));
@@ -181,8 +180,7 @@ TEST(Replay, PackedFramesUnpack) {
 }
 
 TEST(Replay, FramesAreThinnedToTheBudget) {
-    std::vector<ReplayFrame> frames;
-    for (int n = 0; n < 33; ++n) frames.push_back(make_replay_frame(noise(n, 200)));
+    const auto frames = sample::frames([](int n) { return make_replay_frame(noise(n, 200)); }, 33);
     const std::size_t whole = pack_replay(frames, 1 << 30).bytes.size();
     const PackedReplay packed = pack_replay(frames, whole / 3);
     EXPECT_LE(packed.bytes.size(), whole / 3);

@@ -96,8 +96,9 @@ inline Snapshot walled_row(int frame) {
 }
 
 // make(0), make(1), ...
-template <class Make> std::vector<Snapshot> frames(const Make& make, int count) {
-    std::vector<Snapshot> made;
+template <class Make> auto frames(const Make& make, int count) {
+    std::vector<decltype(make(0))> made;
+    made.reserve(static_cast<std::size_t>(count));
     for (int n = 0; n < count; ++n) made.push_back(make(n));
     return made;
 }

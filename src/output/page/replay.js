@@ -2,7 +2,17 @@
 const radiusQuantity = 3; // as in scene::Colour
 const colourBins = 64; // discs of one colour are drawn as one path
 
-// Ends of the colour scale over all frames. Few values far above the rest would leave the rest dark: they are cut off.
+// The value that one grain in a hundred of a frame exceeds.
+function usualHigh(frame, quantity) {
+  const counts = new Uint32Array(256);
+  for (const level of frame.levels[quantity]) counts[level]++;
+  let level = 255;
+  for (let above = counts[level]; level > 0 && above <= 0.01 * frame.x.length; above += counts[level]) level--;
+  return frame.scales[quantity] * (level / 255) ** 2;
+}
+
+// Ends of the colour scale, the same for all frames. What few grains or the first moments have beyond the usual is cut
+// off: it would leave all the rest dark.
 function colourScale(frames, quantity) {
   let low = Infinity;
   let high = 0;
@@ -14,17 +24,9 @@ function colourScale(frames, quantity) {
     }
   if (high === 0) return { low: 0, high: 1, cut: false, empty: true };
   if (quantity === radiusQuantity) return low < 0.98 * high ? { low, high, cut: false } : { low: 0, high, cut: false, empty: true };
-  const counts = new Float64Array(1001);
-  let total = 0;
-  for (const frame of frames)
-    for (let i = 0; i < frame.x.length; i++) {
-      counts[Math.ceil((valueOf(frame, quantity, i) / high) * 1000)]++;
-      total++;
-    }
-  let bin = 1000;
-  for (let above = 0; bin > 1 && above + counts[bin] < 0.003 * total; bin--) above += counts[bin];
-  const usual = (bin / 1000) * high;
-  const cut = usual < 0.6 * high;
+  const highs = frames.map((frame) => usualHigh(frame, quantity)).sort((a, b) => a - b);
+  const usual = highs[Math.floor(0.75 * (highs.length - 1))];
+  const cut = usual > 0 && usual < 0.8 * high;
   const end = cut ? usual : high;
   const step = roundStep(end, 10);
   return { low: 0, high: Math.ceil(end / step - 1e-6) * step, cut };

@@ -8,6 +8,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <limits>
@@ -62,8 +63,8 @@ void write_trajectories(const fs::path& folder, const std::vector<analysis::Snap
         const auto writer = output::make_trajectory_writer(kind, folder, sample::scene());
         for (const analysis::Snapshot& frame : frames) writer->write(frame);
     }
-    std::vector<std::string> all;
-    for (const analysis::Snapshot& frame : frames) all.push_back(expected(frame));
+    std::vector<std::string> all(frames.size());
+    std::transform(frames.begin(), frames.end(), all.begin(), expected);
     write_file_atomically(folder / "expected.json", array(all));
 }
 
@@ -118,9 +119,10 @@ output::ReportInput broken_numbers_report() {
 analysis::Snapshot crowd(int frame) {
     analysis::Snapshot s = sample::empty(0.1 * frame);
     s.upper = {4, 4, 0};
-    for (int n = 0; n < 160'000; ++n)
-        sample::add_grain(s, 0.01 * (n % 400) + 0.005, 0.01 * (n / 400) + 0.005 + 1e-4 * frame, 0.004,
-                          0.01 * (n % 7), frame);
+    for (int row = 0; row < 400; ++row)
+        for (int column = 0; column < 400; ++column)
+            sample::add_grain(s, 0.01 * column + 0.005, 0.01 * row + 0.005 + 1e-4 * frame, 0.004,
+                              0.01 * (column % 7), frame);
     return s;
 }
 
