@@ -211,7 +211,7 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     const NeighbourMethod wanted = scene.md.neighbours;
     const double ratio = needs.radius_min > 0 ? needs.radius_max / needs.radius_min : 1;
     const bool asks = wanted == NeighbourMethod::lattice || wanted == NeighbourMethod::lattice_half;
-    const bool fits = needs.radius_max > 0 && fit_lattice(scene, needs, plan);
+    const bool fits = asks && needs.radius_max > 0 && fit_lattice(scene, needs, plan);
     if (asks && needs.radius_max > 0 && plan.columns == 0)
         fail(Exit::invalid_input,
              "md.neighbours = \"lattice\": the domain of {:.4g} x {:.4g} m would have more than {:.3g} "
@@ -243,32 +243,21 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     plan.neighbours = wanted;
     if (wanted != NeighbourMethod::automatic) {
         if (asks && needs.radius_max == 0) plan.neighbours = NeighbourMethod::brute_force;
-        plan.chosen.push_back("neighbours: as asked for in md.neighbours");
+        plan.chosen.push_back(
+            asks ? fmt::format("neighbours: as asked for in md.neighbours, {0}x{0} mask; radius "
+                               "ratio {1:.4g} <= {2:.4g}; link cells take over if two centres "
+                               "meet in a site",
+                               2 * plan.reach + 1, ratio, lattice_ratio_bound(plan.reach, scene.md.delta))
+                 : "neighbours: as asked for in md.neighbours");
         return;
     }
-    const double n = static_cast<double>(needs.grains + needs.poured);
-    const double sites = static_cast<double>(plan.columns) * plan.rows;
-    if (n <= 32) {
-        plan.neighbours = NeighbourMethod::brute_force;
-        plan.chosen.push_back("neighbours: brute force, 32 grains or fewer");
-    } else if (!fits) {
-        plan.neighbours = NeighbourMethod::link_cells;
-        plan.chosen.push_back(fmt::format("neighbours: link cells, radius ratio {:.3g} or a small period "
-                                          "exceeds the lattice (bound {:.3g})",
-                                          ratio, lattice_ratio_bound(4, scene.md.delta)));
-    } else if (plan.reach > 3 || sites > 64 * n) {
-        plan.neighbours = NeighbourMethod::link_cells;
-        plan.chosen.push_back(
-            fmt::format("neighbours: link cells, the lattice would have {:.3g} sites per grain and reach {}",
-                        sites / n, plan.reach));
-    } else {
-        plan.neighbours = NeighbourMethod::lattice_half;
-        plan.may_switch = true;
-        plan.chosen.push_back(fmt::format("neighbours: lattice, half {0}x{0} mask; radius ratio {1:.4g} <= "
-                                          "{2:.4g}; link cells take over if two centres meet in a site",
-                                          2 * plan.reach + 1, ratio,
-                                          lattice_ratio_bound(plan.reach, scene.md.delta)));
-    }
+    // A function of the scene alone. Lists are measured to be the fastest from a few grains on, at any
+    // density; `tools/bench kernels` shows it.
+    const std::size_t few = 32;
+    const bool small = needs.grains + needs.poured <= few;
+    plan.neighbours = small ? NeighbourMethod::brute_force : NeighbourMethod::verlet;
+    plan.chosen.push_back(small ? fmt::format("neighbours: brute force, {} grains or fewer", few)
+                                : "neighbours: Verlet lists, the fastest for more than a few grains");
 }
 
 void note_skipped(const Scene& scene, const Needs& needs, Plan& plan) {

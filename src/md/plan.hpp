@@ -37,8 +37,6 @@ struct Plan {
     simd::Isa isa = simd::Isa::scalar;
     int threads = 1;
     scene::NeighbourMethod neighbours = scene::NeighbourMethod::link_cells; // never automatic
-    bool may_switch =
-        false; // neighbours = "auto": link cells take over when the lattice's precondition fails
     int order = 5;
     int memory = 0; // numbers that a contact remembers
     bool spin = false, many_materials = false, many_radii = false, walls = false;

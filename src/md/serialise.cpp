@@ -46,7 +46,6 @@ std::string Simulation::serialise() const {
     w.put(step_);
     w.put(plan_.dt);
     w.put(static_cast<std::int32_t>(plan_.neighbours));
-    w.put(static_cast<std::int32_t>(plan_.may_switch ? 1 : 0));
     w.put(removed_);
     w.put(delayed_);
     w.put(static_cast<std::int32_t>(state_.order));
@@ -74,7 +73,6 @@ void Simulation::restore(const std::string& bytes) {
     if (step_ < 0 || step_ > std::int64_t{1} << 53) damaged();
     if (r.get<double>() != plan_.dt) damaged();
     const auto method = static_cast<scene::NeighbourMethod>(r.get<std::int32_t>());
-    const bool may_switch = r.get<std::int32_t>() != 0;
     removed_ = r.get<std::int64_t>();
     delayed_ = r.get<std::int64_t>();
     if (r.get<std::int32_t>() != state_.order || r.get<std::int32_t>() != state_.dofs) damaged();
@@ -98,9 +96,10 @@ void Simulation::restore(const std::string& bytes) {
     lists_.adopt(plan_.memory > 0 ? ContactMemory::read(r, plan_.memory) : ContactMemory());
     walls_.adopt(plan_.memory > 0 ? ContactMemory::read(r, plan_.memory) : ContactMemory());
     if (!r.at_end()) damaged();
-    if (method != plan_.neighbours) use_link_cells();
+    const bool on_lattice = plan_.neighbours == scene::NeighbourMethod::lattice ||
+                            plan_.neighbours == scene::NeighbourMethod::lattice_half;
+    if (on_lattice && method == scene::NeighbourMethod::link_cells) use_link_cells();
     if (method != plan_.neighbours) damaged();
-    plan_.may_switch = may_switch;
     force_step_ = step_ + 1;
     sorted_ = true;
     state_.refresh_records(plan_.dt);

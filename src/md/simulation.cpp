@@ -254,16 +254,11 @@ void Simulation::pair_forces() {
     if (occupied != static_cast<std::int64_t>(state_.size())) {
         const Lattice::Clash clash = lattice_.find_clash(state_);
         const auto a = static_cast<std::size_t>(clash.first), b = static_cast<std::size_t>(clash.second);
-        const std::string what = fmt::format("DELTA_EXCEEDED: grains {} and {} share a lattice site at step "
-                                             "{}: their overlap exceeds delta = {} of R_min",
-                                             state_.id[a], state_.id[b], step_, scene_.md.delta);
-        if (!plan_.may_switch)
-            fail(
-                Exit::unstable,
-                "{}. Use md.neighbours = \"auto\", a larger md.delta, a stiffer material or a smaller md.dt.",
-                what);
         use_link_cells();
-        events_.push_back(what + "; link cells from here on");
+        events_.push_back(
+            fmt::format("DELTA_EXCEEDED: grains {} and {} share a lattice site at step {}: their "
+                        "overlap exceeds delta = {} of R_min; link cells from here on",
+                        state_.id[a], state_.id[b], step_, scene_.md.delta));
         state_.force.fill(0.0);
         return pair_forces();
     }
@@ -452,7 +447,6 @@ void Simulation::handle_outside() {
 
 void Simulation::use_link_cells() {
     plan_.neighbours = NeighbourMethod::link_cells;
-    plan_.may_switch = false;
     prepare_method();
 }
 
@@ -496,7 +490,6 @@ std::vector<double> Simulation::forces(simd::Isa isa, NeighbourMethod method) co
     Simulation other(*this);
     other.plan_.isa = isa;
     other.plan_.neighbours = method;
-    other.plan_.may_switch = false;
     other.kernels_ = &simd::md_kernels(isa);
     other.prepare_method();
     other.lists_.adopt(lists_.memory(state_));
