@@ -211,7 +211,7 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     const NeighbourMethod wanted = scene.md.neighbours;
     const double ratio = needs.radius_min > 0 ? needs.radius_max / needs.radius_min : 1;
     const bool asks = wanted == NeighbourMethod::lattice || wanted == NeighbourMethod::lattice_half;
-    const bool fits = asks && needs.radius_max > 0 && fit_lattice(scene, needs, plan);
+    const bool fits = needs.radius_max > 0 && fit_lattice(scene, needs, plan);
     if (asks && needs.radius_max > 0 && plan.columns == 0)
         fail(Exit::invalid_input,
              "md.neighbours = \"lattice\": the domain of {:.4g} x {:.4g} m would have more than {:.3g} "
