@@ -19,6 +19,8 @@ struct Setup {
     bool equal_radii = false;
     scene::NeighbourMethod neighbours = scene::NeighbourMethod::lattice;
     scene::Integrator integrator = scene::Integrator::gear5;
+    bool springs = false;       // friction of Cundall and Strack
+    bool two_materials = false; // of the same coefficients
 };
 
 // Below the packing fraction of a jammed disc packing there is no damping, above it strong damping brings the
@@ -45,9 +47,16 @@ inline scene::Scene agitated_scene(const Setup& setup) {
     m.young = 1e4;
     m.friction = setup.friction ? 0.3 : 0.0;
     m.tangential_damping = setup.friction ? 0.1 : 0.0;
+    m.tangential_stiffness = 2.0 / 7.0 * m.stiffness;
     s.materials = {m};
+    if (setup.two_materials) {
+        m.name = "other";
+        s.materials.push_back(m);
+    }
     s.md.normal = setup.normal;
-    s.md.tangential = setup.friction ? scene::TangentialLaw::haff_werner : scene::TangentialLaw::none;
+    s.md.tangential = setup.springs    ? scene::TangentialLaw::cundall_strack
+                      : setup.friction ? scene::TangentialLaw::haff_werner
+                                       : scene::TangentialLaw::none;
     s.md.neighbours = setup.neighbours;
     s.md.integrator = setup.integrator;
     s.md.body = scene::Body::disc;
@@ -72,6 +81,7 @@ inline std::vector<scene::GrainState> agitated_grains(const Setup& setup, const 
         const auto [vx, vy] = velocity.normal2(static_cast<std::uint64_t>(n));
         g.velocity = {0.5 * vx, 0.5 * vy, 0};
         g.omega = 0;
+        g.material = setup.two_materials ? static_cast<int>(n % 2) : 0;
         grains.push_back(g);
     }
     return grains;
@@ -89,6 +99,7 @@ inline std::vector<scene::GrainState> later_grains(const md::Simulation& simulat
         g.omega = now.omega[i];
         g.radius = now.radius[i];
         g.mass = now.mass[i];
+        g.material = now.material[i];
     }
     return grains;
 }

@@ -27,8 +27,11 @@ struct Case {
 };
 
 std::string law_name(const bench::Setup& s) {
-    return fmt::format("{}{}{}{}", s.normal == scene::NormalLaw::viscoelastic ? "hertz" : "linear",
-                       s.friction ? "+friction" : "", s.equal_radii ? "+equal" : "",
+    return fmt::format("{}{}{}{}{}", s.normal == scene::NormalLaw::viscoelastic ? "hertz" : "linear",
+                       s.springs    ? "+springs"
+                       : s.friction ? "+friction"
+                                    : "",
+                       s.equal_radii ? "+equal" : "", s.two_materials ? "+two" : "",
                        s.integrator == scene::Integrator::velocity_verlet ? "+vv" : "");
 }
 
@@ -122,6 +125,19 @@ void add_all() {
                 for (const bool friction : {true, false}) add_methods({n, phi, normal, friction});
 }
 
+// What `tools/bench skips` compares besides.
+void add_skips() {
+    bench::Setup base{10000, 0.82, scene::NormalLaw::viscoelastic, true};
+    for (const auto method : {NeighbourMethod::lattice_half, NeighbourMethod::verlet}) {
+        base.neighbours = method;
+        bench::Setup equal = base, two = base, springs = base;
+        equal.equal_radii = two.two_materials = springs.springs = true;
+        add({equal, simd::available_isas().back()});
+        add({two, simd::available_isas().back()});
+        if (method == NeighbourMethod::verlet) add({springs, simd::available_isas().back()});
+    }
+}
+
 // Takes --rounds=R out of the arguments.
 int take_rounds(int& argc, char** argv) {
     constexpr std::string_view option = "--rounds=";
@@ -141,7 +157,10 @@ int take_rounds(int& argc, char** argv) {
 
 int main(int argc, char** argv) {
     const int rounds = take_rounds(argc, argv);
-    for (int round = 0; round < rounds; ++round) add_all();
+    for (int round = 0; round < rounds; ++round) {
+        add_all();
+        add_skips();
+    }
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     benchmark::RunSpecifiedBenchmarks();

@@ -71,6 +71,23 @@ def table(options):
     tables.write(found, measure.roofline(), case, isas, cpus)
 
 
+def skips(options):
+    """Each part of the physics against the same scene without it, in turn."""
+    isa = measure.info()[0][-1]
+    full = {method: case(method, "hertz+friction", isa=isa) for method in ("verlet", "half")}
+    rows = [("rotation and friction", full[m], case(m, "hertz", isa=isa)) for m in full]
+    rows += [("many radii", full[m], case(m, "hertz+friction+equal", isa=isa)) for m in full]
+    rows += [("many materials", case(m, "hertz+friction+two", isa=isa), full[m]) for m in full]
+    rows += [("contact memory", case("verlet", "hertz+springs", isa=isa), full["verlet"])]
+    rows += [("higher derivatives", full["verlet"], case("verlet", "hertz+friction+vv", isa=isa))]
+    found = measure.steps(sorted({c for row in rows for c in row[1:]}), options.rounds, options.seconds, "skips")
+    print(f"{'skipped':<24}{'method':<8}{'with':>10}{'without':>10}{'gain':>7}")
+    for what, with_it, without in rows:
+        a, b = found[with_it], found[without]
+        print(f"{what:<24}{with_it.split('/')[1]:<8}{measure.median(a) / 1e6:>8.1f} M"
+              f"{measure.median(b) / 1e6:>8.1f} M{measure.ratio(b, a):>7.2f}")
+
+
 def peers(options):
     sys.path.append(str(pathlib.Path(__file__).parent / "peers"))
     try:
@@ -110,6 +127,9 @@ def main():
     sub.add_argument("--seconds", type=float, default=0.2, help="least time of one run")
     command("roofline", roofline, "rates of operations, bandwidth and latency of this machine")
     sub = command("table", table, "one run, written into README.md and docs/performance.md (about five minutes)")
+    sub.add_argument("--rounds", type=int, default=5, help="times that all cases run in turn")
+    sub.add_argument("--seconds", type=float, default=0.2, help="least time of one run")
+    sub = command("skips", skips, "what a scene gains from physics that it does without")
     sub.add_argument("--rounds", type=int, default=5, help="times that all cases run in turn")
     sub.add_argument("--seconds", type=float, default=0.2, help="least time of one run")
     sub = command("peers", peers, "the same discs in LAMMPS, physics compared, rates side by side")
