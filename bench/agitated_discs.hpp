@@ -17,6 +17,7 @@ struct Setup {
     bool friction = true;
     bool equal_radii = false;
     scene::NeighbourMethod neighbours = scene::NeighbourMethod::lattice;
+    scene::Integrator integrator = scene::Integrator::gear5;
 };
 
 // Triangular start, thermal speeds: contact time much below the time between collisions at low density,
@@ -24,7 +25,7 @@ struct Setup {
 inline scene::Scene agitated_scene(const Setup& setup) {
     scene::Scene s;
     const auto side =
-        static_cast<double>(std::llround(std::sqrt(static_cast<double>(setup.grains) * 0.5)) * 2);
+        static_cast<double>(std::llround(std::sqrt(static_cast<double>(setup.grains)) * 0.5) * 2);
     const double spacing = std::sqrt(2 * std::numbers::pi / (std::sqrt(3.0) * setup.packing_fraction));
     s.title = "agitated discs";
     s.domain.upper = {side * spacing, side * spacing * std::sqrt(3.0) / 2, 0};
@@ -41,6 +42,7 @@ inline scene::Scene agitated_scene(const Setup& setup) {
     s.md.normal = setup.normal;
     s.md.tangential = setup.friction ? scene::TangentialLaw::haff_werner : scene::TangentialLaw::none;
     s.md.neighbours = setup.neighbours;
+    s.md.integrator = setup.integrator;
     s.md.body = scene::Body::disc;
     s.md.max_speed = 2;
     s.md.duration = 1;
@@ -50,7 +52,7 @@ inline scene::Scene agitated_scene(const Setup& setup) {
 inline std::vector<scene::GrainState> agitated_grains(const Setup& setup, const scene::Scene& s) {
     std::vector<scene::GrainState> grains;
     const auto side =
-        static_cast<std::int64_t>(std::llround(std::sqrt(static_cast<double>(setup.grains) * 0.5)) * 2);
+        static_cast<std::int64_t>(std::llround(std::sqrt(static_cast<double>(setup.grains)) * 0.5) * 2);
     const double spacing = s.domain.upper.x / static_cast<double>(side);
     const Random radius(1, Stream::radius), velocity(1, Stream::velocity);
     for (std::int64_t n = 0; n < side * side; ++n) {

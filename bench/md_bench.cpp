@@ -31,10 +31,11 @@ void step(benchmark::State& state, bench::Setup setup, simd::Isa isa, int thread
 }
 
 std::string name_of(const bench::Setup& s, simd::Isa isa, int threads) {
-    static const char* methods[] = {"auto", "brute", "cells", "lattice", "half"};
-    return fmt::format("md/{}/{}{}{}/phi={}/N={}/{}/threads={}", methods[static_cast<int>(s.neighbours)],
+    static const char* methods[] = {"auto", "brute", "cells", "lattice", "half", "verlet"};
+    return fmt::format("md/{}/{}{}{}{}/phi={}/N={}/{}/threads={}", methods[static_cast<int>(s.neighbours)],
                        s.normal == scene::NormalLaw::viscoelastic ? "hertz" : "linear",
-                       s.friction ? "+friction" : "", s.equal_radii ? "+equal" : "", s.packing_fraction,
+                       s.friction ? "+friction" : "", s.equal_radii ? "+equal" : "",
+                       s.integrator == scene::Integrator::velocity_verlet ? "+vv" : "", s.packing_fraction,
                        s.grains, simd::isa_name(isa), threads);
 }
 
@@ -48,14 +49,18 @@ void add(const bench::Setup& setup, simd::Isa isa, int threads) {
 void add_all() {
     for (const std::size_t n : {1000U, 10000U, 100000U, 1000000U})
         for (const double phi : {0.2, 0.5, 0.82})
-            for (const auto method :
-                 {NeighbourMethod::lattice, NeighbourMethod::lattice_half, NeighbourMethod::link_cells})
+            for (const auto method : {NeighbourMethod::lattice, NeighbourMethod::lattice_half,
+                                      NeighbourMethod::link_cells, NeighbourMethod::verlet})
                 for (const auto normal : {scene::NormalLaw::linear_dashpot, scene::NormalLaw::viscoelastic})
                     for (const bool friction : {true, false})
                         for (const simd::Isa isa : simd::available_isas())
                             for (const int threads : {1, 2}) {
                                 if (threads > allowed_cpus()) continue;
                                 add({n, phi, normal, friction, false, method}, isa, threads);
+                                if (method == NeighbourMethod::verlet)
+                                    add({n, phi, normal, friction, false, method,
+                                         scene::Integrator::velocity_verlet},
+                                        isa, threads);
                             }
 }
 

@@ -264,6 +264,76 @@ template <int count> struct Integers<xsimd::avx2, count> {
 };
 #endif
 
+// Packs the doubles whose bit is set to the front. Writes whole registers: up to eight doubles.
+template <class Arch> SANDLANE_INLINE void compress(const Block<Arch>& b, unsigned mask, double* to) {
+    double lanes[width];
+    store(lanes, b);
+    for (int n = 0; mask != 0; mask &= mask - 1) to[n++] = lanes[__builtin_ctz(mask)];
+}
+#if defined(__AVX512F__)
+SANDLANE_INLINE void compress(const Block<xsimd::avx512bw>& b, unsigned mask, double* to) {
+    _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(mask), b.p[0]));
+}
+#elif defined(__AVX2__)
+// Entry m holds, one byte each, the halves of the doubles whose bit is set in m.
+struct CompressDoubles {
+    std::uint64_t entry[16];
+    constexpr CompressDoubles() : entry{} {
+        for (unsigned m = 0; m < 16; ++m) {
+            unsigned n = 0;
+            for (unsigned bit = 0; bit < 4; ++bit)
+                if ((m >> bit & 1u) != 0) {
+                    entry[m] |= std::uint64_t{2 * bit + 256 * (2 * bit + 1)} << (16 * n);
+                    ++n;
+                }
+        }
+    }
+};
+constexpr CompressDoubles compress_doubles;
+SANDLANE_INLINE void compress(const Block<xsimd::avx2>& b, unsigned mask, double* to) {
+    for (int part = 0; part < 2; ++part) {
+        const unsigned half = mask >> (4 * part) & 15u;
+        const __m128i bytes = _mm_cvtsi64_si128(static_cast<long long>(compress_doubles.entry[half]));
+        const __m256i halves = _mm256_castpd_si256(b.p[part]);
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                            _mm256_permutevar8x32_epi32(halves, _mm256_cvtepu8_epi32(bytes)));
+        to += __builtin_popcount(half);
+    }
+}
+#endif
+
+// ---- rows of four doubles: a force and its reaction, which has the same fourth and third field (equal
+// torque signs, md-spheres 1.7)
+
+template <class Arch> SANDLANE_INLINE void add_row(double* to, const double* row) {
+    to[0] += row[0];
+    to[1] += row[1];
+    to[2] += row[2];
+}
+template <class Arch> SANDLANE_INLINE void add_mirrored_row(double* to, const double* row) {
+    to[0] -= row[0];
+    to[1] -= row[1];
+    to[2] += row[2];
+}
+#if defined(__AVX2__)
+template <> SANDLANE_INLINE void add_row<xsimd::avx2>(double* to, const double* row) {
+    _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), _mm256_loadu_pd(row)));
+}
+template <> SANDLANE_INLINE void add_mirrored_row<xsimd::avx2>(double* to, const double* row) {
+    const __m256d signs = _mm256_setr_pd(-0.0, -0.0, 0.0, 0.0);
+    _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), _mm256_xor_pd(signs, _mm256_loadu_pd(row))));
+}
+#endif
+#if defined(__AVX512F__)
+template <> SANDLANE_INLINE void add_row<xsimd::avx512bw>(double* to, const double* row) {
+    _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), _mm256_loadu_pd(row)));
+}
+template <> SANDLANE_INLINE void add_mirrored_row<xsimd::avx512bw>(double* to, const double* row) {
+    const __m256d signs = _mm256_setr_pd(-0.0, -0.0, 0.0, 0.0);
+    _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), _mm256_xor_pd(signs, _mm256_loadu_pd(row))));
+}
+#endif
+
 // ---- transposes
 
 // field[f] lane l = rows[l][f] for f < 4 of (j - i) and f >= 4 of (j + i): the combined records of eight

@@ -68,6 +68,26 @@ struct SweepResult {
 using LatticeKernel = SweepResult (*)(const LatticeView&, const PairView&, PairKernel, std::int32_t row_begin,
                                       std::int32_t row_end);
 
+// Verlet lists: pairs of grains whose gap is small, cut into tiles of consecutive grains so that nothing is
+// written by two tiles. A pair inside the tile is listed once, i < j; a pair with a grain j of another tile
+// is listed for i only, and once more in the other tile. Ascending in i, then j: the order of additions is a
+// function of the storage order alone, not of when or how the list was made.
+inline constexpr std::int32_t tile_grains = 1024; // fixed, so that results do not depend on threads
+struct TileList {
+    const std::int32_t *i, *j; // storage indices, begin <= i < end
+    std::int32_t count, begin, end;
+};
+// Adds the forces of the listed pairs that touch to the grains of the tile, in list order; `force` is the
+// accumulator of grain `begin`, with a row behind the last of a whole tile that takes what is not wanted.
+// Returns the largest overlap [m] (or `largest`).
+using TileKernel = double (*)(const PairView&, const TileList&, double* force, double largest);
+
+// Copies the pairs whose gap is below `skin`, in order; all four lists have room for eight pairs more than
+// `count`.
+using NearKernel = std::int32_t (*)(const PairView&, const std::int32_t* i, const std::int32_t* j,
+                                    std::int32_t count, double skin, std::int32_t* near_i,
+                                    std::int32_t* near_j);
+
 // Link cells: particles counting-sorted by cell. One cell in a direction means "all particles" in that
 // direction.
 struct CellView {
@@ -77,6 +97,10 @@ struct CellView {
     std::int32_t columns, rows;
     bool periodic_x, periodic_y;
 };
+// Grains of `cell` and those around it whose gap to the grain at sorted position `self` is below `skin`:
+// storage indices in the order of the cells. `out` has room for all grains of these cells and eight more.
+using CandidateKernel = std::int32_t (*)(const CellView&, const PairView&, std::int32_t cell,
+                                         std::int32_t self, double skin, std::int32_t* out);
 using CellKernel = SweepResult (*)(const CellView&, const PairView&, PairKernel, std::int32_t row_begin,
                                    std::int32_t row_end);
 
@@ -84,7 +108,7 @@ using CellKernel = SweepResult (*)(const CellView&, const PairView&, PairKernel,
 struct MotionView {
     double* gear;
     double* records;
-    double* force;
+    double* force; // of the first particle of the range
     const double* inverse_mass;
     const double* spin_factor; // R/J, angular acceleration per sum of f_t
     const double* radius;
@@ -124,7 +148,10 @@ struct MdKernels {
     LatticeKernel lattice_full[2]; // [many radii]
     LatticeKernel lattice_half[2];
     CellKernel cells;
-    MotionKernel predict[3][2], correct[3][2], advance[3][2]; // [order - 4][spin]
+    CandidateKernel candidates;
+    NearKernel near_pairs;
+    TileKernel tile[2][2][2];                                 // [normal law][tangential law][many materials]
+    MotionKernel predict[4][2], correct[4][2], advance[4][2]; // [order - 3][spin]
     BinKernel bin;
 };
 

@@ -43,6 +43,55 @@ SANDLANE_INLINE ColumnRuns neighbour_columns(std::int32_t column, std::int32_t c
     return {{first, 0}, {last, 0}, 1};
 }
 
+// As sweep_run, but for gaps below `skin`, and without evaluating anything.
+template <class Arch>
+std::int32_t cell_candidates(const CellView& cells, const PairView& view, std::int32_t cell,
+                             std::int32_t self, double skin, std::int32_t* out) {
+    using R = Block<Arch>;
+    const R x(cells.x[self]), y(cells.y[self]), reach(cells.radius[self] + skin);
+    const ColumnRuns rows = neighbour_columns<Arch>(cell / cells.columns, cells.rows, cells.periodic_y);
+    const ColumnRuns runs = neighbour_columns<Arch>(cell % cells.columns, cells.columns, cells.periodic_x);
+    std::int32_t count = 0;
+    for (int r = 0; r < rows.count; ++r)
+        for (std::int32_t other = rows.first[r]; other <= rows.last[r]; ++other)
+            for (int c = 0; c < runs.count; ++c) {
+                const std::int32_t* start = cells.start + std::ptrdiff_t{other} * cells.columns;
+                const std::int32_t end = start[runs.last[c] + 1];
+                for (std::int32_t first = start[runs.first[c]]; first < end; first += width) {
+                    const R dx = minimum_image(load<Arch>(cells.x + first) - x, view.half_x, view.period_x);
+                    const R dy = minimum_image(load<Arch>(cells.y + first) - y, view.half_y, view.period_y);
+                    const R sum = load<Arch>(cells.radius + first) + reach;
+                    unsigned hits = bits(dx * dx + dy * dy < sum * sum);
+                    if (end - first < width) hits &= (1u << (end - first)) - 1u;
+                    const std::int32_t own = self - first;
+                    if (own >= 0 && own < width) hits &= ~(1u << own);
+                    Integers<Arch, width>(cells.owner + first).compress(hits, out + count);
+                    count += __builtin_popcount(hits);
+                }
+            }
+    return count;
+}
+
+template <class Arch>
+std::int32_t near_pairs(const PairView& view, const std::int32_t* i, const std::int32_t* j,
+                        std::int32_t count, double skin, std::int32_t* near_i, std::int32_t* near_j) {
+    using R = Block<Arch>;
+    std::int32_t found = 0;
+    for (std::int32_t n = 0; n < count; n += width) {
+        R field[record_fields];
+        CombinePairs<Arch>::apply(view.records, i + n, j + n, field);
+        const R dx = minimum_image(field[0], view.half_x, view.period_x);
+        const R dy = minimum_image(field[1], view.half_y, view.period_y);
+        const R reach = field[5] + R(skin);
+        unsigned hits = bits(dx * dx + dy * dy < reach * reach);
+        if (count - n < width) hits &= (1u << (count - n)) - 1u;
+        Integers<Arch, width>(i + n).compress(hits, near_i + found);
+        Integers<Arch, width>(j + n).compress(hits, near_j + found);
+        found += __builtin_popcount(hits);
+    }
+    return found;
+}
+
 template <class Arch>
 SweepResult cells_full(const CellView& cells, const PairView& view, PairKernel kernel, std::int32_t row_begin,
                        std::int32_t row_end) {

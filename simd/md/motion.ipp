@@ -48,7 +48,7 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
         if constexpr (spin) load_dof<Arch, order>(gear, 2, phi);
         if constexpr (do_correct) {
             R fx, fy, ft;
-            double* force = view.force + first * force_fields;
+            double* force = view.force + (first - begin) * force_fields;
             LoadRows<Arch>::apply(force, fx, fy, ft);
             for (int row = 0; row < force_fields; ++row) store(force + row * width, R(0.0));
             const R inverse_mass = load<Arch>(view.inverse_mass + first);

@@ -21,6 +21,8 @@ const char* method_name(scene::NeighbourMethod method) {
         return "lattice, full mask";
     case scene::NeighbourMethod::lattice_half:
         return "lattice, half mask";
+    case scene::NeighbourMethod::verlet:
+        return "Verlet lists, tiles of 1024 grains, forces and motion in one pass";
     }
     return "";
 }
@@ -66,7 +68,8 @@ std::string describe(const scene::Scene& scene, const Needs& needs, const Derive
     if (on_lattice(plan))
         line("lattice", fmt::format("{} x {} sites of {:.4g} x {:.4g} m, mask {}x{}", plan.columns, plan.rows,
                                     plan.site_x, plan.site_y, 2 * plan.reach + 1, 2 * plan.reach + 1));
-    line("integrator", fmt::format("Gear predictor-corrector, {} values", plan.order));
+    line("integrator", plan.order == 3 ? std::string("velocity Verlet")
+                                       : fmt::format("Gear predictor-corrector, {} values", plan.order));
     for (const std::string& reason : plan.chosen) text += "  " + reason + "\n";
     text += "\nSkipped, because the scene does not need it\n";
     for (const std::string& reason : plan.skipped) text += "  " + reason + "\n";

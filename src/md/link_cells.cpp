@@ -18,28 +18,32 @@ std::int32_t cell_count(double length, double edge, bool periodic) {
 
 } // namespace
 
-LinkCells::LinkCells(const scene::Scene& scene, const Plan& plan, double radius_max, bool brute_force)
+LinkCells::LinkCells(const scene::Scene& scene, const Plan& plan, double radius_max, bool brute_force,
+                     double skin)
     : lower_x_(plan.lower.x), lower_y_(plan.lower.y), periodic_x_(scene.domain.periodic[0]),
       periodic_y_(scene.domain.periodic[1]) {
     const double width = plan.upper.x - plan.lower.x, height = plan.upper.y - plan.lower.y;
-    const double edge = 2 * radius_max * (1 + 0x1p-30); // rounding of positions never exceeds the margin
+    const double edge =
+        (2 * radius_max + skin) * (1 + 0x1p-30); // rounding of positions never exceeds the margin
     if (!brute_force && edge > 0) {
         columns_ = cell_count(width, edge, periodic_x_);
         rows_ = cell_count(height, edge, periodic_y_);
     }
     cell_x_ = width / columns_;
     cell_y_ = height / rows_;
-    start_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
+    start_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 2, 0);
 }
 
 std::size_t LinkCells::bytes() const {
-    return x_.bytes() + y_.bytes() + radius_.bytes() + owner_.bytes() + start_.bytes() + cell_.bytes();
+    return x_.bytes() + y_.bytes() + radius_.bytes() + owner_.bytes() + start_.bytes() + cell_.bytes() +
+           slot_.bytes();
 }
 
 void LinkCells::build(const State& state, simd::BinKernel kernel, int threads) {
     const std::size_t n = state.size();
     if (cell_.size() != n) {
         cell_.resize(n);
+        slot_.resize(n);
         owner_.resize(n + block_width, 0);
         for (Column<double>* column : {&x_, &y_, &radius_}) column->resize(n + block_width, 0.0);
     }
@@ -62,19 +66,23 @@ void LinkCells::build(const State& state, simd::BinKernel kernel, int threads) {
                static_cast<std::int64_t>(std::min(n, (tile + 1) * tile_size)));
     });
     start_.fill(0);
-    for (std::size_t i = 0; i < n; ++i) ++start_[static_cast<std::size_t>(cell_[i]) + 1];
-    for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
-    // Filling moves each start to the next cell's; afterwards the array is shifted back by one cell.
+    // Counts stand two cells further on, their sums one: filling moves each to where the cell starts.
+    for (std::size_t i = 0; i < n; ++i) ++start_[static_cast<std::size_t>(cell_[i]) + 2];
+    std::int32_t fullest = 0;
+    for (std::size_t c = 2; c < start_.size(); ++c) {
+        fullest = std::max(fullest, start_[c]);
+        start_[c] += start_[c - 1];
+    }
+    most_around_ = std::min(n, 9 * static_cast<std::size_t>(fullest));
     for (std::size_t i = 0; i < n; ++i) {
-        const auto slot = static_cast<std::size_t>(start_[static_cast<std::size_t>(cell_[i])]++);
+        const auto slot = static_cast<std::size_t>(start_[static_cast<std::size_t>(cell_[i]) + 1]++);
         const double* record = state.record.data() + i * simd::record_fields;
         x_[slot] = record[0];
         y_[slot] = record[1];
         radius_[slot] = state.radius[i];
         owner_[slot] = static_cast<std::int32_t>(i);
+        slot_[i] = static_cast<std::int32_t>(slot);
     }
-    for (std::size_t c = start_.size() - 1; c > 0; --c) start_[c] = start_[c - 1];
-    start_[0] = 0;
 }
 
 simd::CellView LinkCells::view() const {

@@ -28,16 +28,25 @@ int order_of(scene::Integrator integrator) {
         return 5;
     case scene::Integrator::gear6:
         return 6;
+    case scene::Integrator::velocity_verlet:
+        return 3;
     }
     return 5;
+}
+
+const char* integrator_name(scene::Integrator integrator) {
+    static const char* names[] = {"gear4", "gear5", "gear6", "velocity-verlet"};
+    return names[static_cast<int>(integrator)];
 }
 
 // Largest stable w dt of the integrator at damping ratio z, interpolated in table 4.6.
 double stable_phase(int order, double z) {
     static constexpr double at[] = {0.0, 0.3, 1.0, 3.0};
-    static constexpr double bound[3][4] = {
-        {1.41, 0.69, 0.26, 0.091}, {0.94, 0.42, 0.148, 0.050}, {0.81, 0.25, 0.081, 0.028}};
-    const double* b = bound[order - 4];
+    static constexpr double bound[4][4] = {{2.0, 1.13, 0.47, 0.166},
+                                           {1.41, 0.69, 0.26, 0.091},
+                                           {0.94, 0.42, 0.148, 0.050},
+                                           {0.81, 0.25, 0.081, 0.028}};
+    const double* b = bound[order - 3];
     for (int n = 1; n < 4; ++n)
         if (z <= at[n]) return b[n - 1] + (b[n] - b[n - 1]) * (z - at[n - 1]) / (at[n] - at[n - 1]);
     return b[3] * at[3] / z;
@@ -45,8 +54,8 @@ double stable_phase(int order, double z) {
 
 // Largest stable dt gamma/m of a pure damping force (3.1).
 double stable_damping(int order) {
-    static constexpr double bound[] = {0.54, 0.30, 0.16};
-    return bound[order - 4];
+    static constexpr double bound[] = {1.0, 0.54, 0.30, 0.16};
+    return bound[order - 3];
 }
 
 struct Stiffness {
@@ -273,11 +282,7 @@ void check_time_step(const Scene& scene, const Derived& derived, double dt) {
          "md.dt = {:.4g} s is above the critical time step {:.4g} s of the stiffest contact with {} "
          "(allowed: 0 to that; "
          "recommended: {:.3g} s). Lower md.dt, leave it out, or soften the material.",
-         dt, derived.critical_dt,
-         scene.md.integrator == scene::Integrator::gear4   ? "gear4"
-         : scene.md.integrator == scene::Integrator::gear5 ? "gear5"
-                                                           : "gear6",
-         derived.recommended_dt);
+         dt, derived.critical_dt, integrator_name(scene.md.integrator), derived.recommended_dt);
 }
 
 } // namespace

@@ -188,6 +188,68 @@ SweepResult cells_full(const CellView& cells, const PairView& view, PairKernel k
     return result;
 }
 
+// All grains around the cell, looked at one by one.
+std::int32_t cell_candidates(const CellView& cells, const PairView& view, std::int32_t cell,
+                             std::int32_t self, double skin, std::int32_t* out) {
+    std::int32_t count = 0;
+    for_neighbour_cells(cell / cells.columns, cells.rows, cells.periodic_y, [&](std::int32_t r) {
+        for_neighbour_cells(cell % cells.columns, cells.columns, cells.periodic_x, [&](std::int32_t c) {
+            const std::ptrdiff_t other = std::ptrdiff_t{r} * cells.columns + c;
+            for (std::int32_t n = cells.start[other]; n < cells.start[other + 1]; ++n) {
+                const double dx = nearest_image(cells.x[n] - cells.x[self], view.half_x, view.period_x);
+                const double dy = nearest_image(cells.y[n] - cells.y[self], view.half_y, view.period_y);
+                const double reach = cells.radius[n] + (cells.radius[self] + skin);
+                if (n != self && dx * dx + dy * dy < reach * reach) out[count++] = cells.owner[n];
+            }
+        });
+    });
+    return count;
+}
+
+std::int32_t near_pairs(const PairView& view, const std::int32_t* i, const std::int32_t* j,
+                        std::int32_t count, double skin, std::int32_t* near_i, std::int32_t* near_j) {
+    std::int32_t found = 0;
+    for (std::int32_t n = 0; n < count; ++n) {
+        const Particle a = particle(view, i[n]), b = particle(view, j[n]);
+        const double dx = nearest_image(b.x - a.x, view.half_x, view.period_x);
+        const double dy = nearest_image(b.y - a.y, view.half_y, view.period_y);
+        const double reach = b.radius + a.radius + skin;
+        if (!(dx * dx + dy * dy < reach * reach)) continue;
+        near_i[found] = i[n];
+        near_j[found++] = j[n];
+    }
+    return found;
+}
+
+template <class Normal, class Tangential, bool many_materials>
+double tile_forces(const PairView& view, const TileList& list, double* force, double largest) {
+    for (std::int32_t n = 0; n < list.count; ++n) {
+        const std::int32_t i = list.i[n], j = list.j[n];
+        const Particle a = particle(view, i), b = particle(view, j);
+        const double dx = nearest_image(b.x - a.x, view.half_x, view.period_x);
+        const double dy = nearest_image(b.y - a.y, view.half_y, view.period_y);
+        const double sum = b.radius + a.radius;
+        if (!(dx * dx + dy * dy < sum * sum)) continue;
+        std::ptrdiff_t pair = 0;
+        if (many_materials) pair = std::ptrdiff_t{view.material[i]} * view.materials + view.material[j];
+        const double* c = view.coefficients + pair * laws::pair_coefficients;
+        const laws::PairState<double> state{
+            dx, dy, b.vx - a.vx, b.vy - a.vy, b.spin + a.spin, sum, b.inverse_radius + a.inverse_radius};
+        const auto f = laws::pair_force<Normal, Tangential, double>(state, {c[0], c[1], c[2], c[3]});
+        if (f.overlap > largest) largest = f.overlap;
+        double* on_i = force + std::ptrdiff_t{i - list.begin} * force_fields;
+        on_i[0] += f.x;
+        on_i[1] += f.y;
+        on_i[2] += f.tangential;
+        if (j < list.begin || j >= list.end) continue;
+        double* on_j = force + std::ptrdiff_t{j - list.begin} * force_fields;
+        on_j[0] -= f.x;
+        on_j[1] -= f.y;
+        on_j[2] += f.tangential;
+    }
+    return largest;
+}
+
 double wrap(double x, double lower, double upper, double period, std::int32_t& image) {
     if (x < lower) {
         --image;
@@ -207,7 +269,7 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
     MotionResult result;
     for (std::int64_t i = begin; i < end; ++i) {
         double* block = view.gear + (i - i % 8) * dofs * order + i % 8;
-        double* force = view.force + i * force_fields;
+        double* force = view.force + (i - begin) * force_fields;
         double* record = view.records + i * record_fields;
         const double acceleration[3] = {force[0] * view.inverse_mass[i] + view.gravity_x,
                                         force[1] * view.inverse_mass[i] + view.gravity_y,
@@ -258,12 +320,16 @@ void bin_sites(const BinView& view, std::int64_t begin, std::int64_t end) {
 }
 
 template <int order, bool spin> void fill_motion(MdKernels& t) {
-    t.predict[order - 4][spin] = gear_step<order, spin, false, true>;
-    t.correct[order - 4][spin] = gear_step<order, spin, true, false>;
-    t.advance[order - 4][spin] = gear_step<order, spin, true, true>;
+    t.predict[order - 3][spin] = gear_step<order, spin, false, true>;
+    t.correct[order - 3][spin] = gear_step<order, spin, true, false>;
+    t.advance[order - 3][spin] = gear_step<order, spin, true, true>;
 }
 
-template <class Normal> void fill_pairs(PairKernel (&t)[2][2]) {
+template <class Normal> void fill_pairs(PairKernel (&t)[2][2], TileKernel (&tile)[2][2]) {
+    tile[0][0] = tile_forces<Normal, laws::Frictionless, false>;
+    tile[0][1] = tile_forces<Normal, laws::Frictionless, true>;
+    tile[1][0] = tile_forces<Normal, laws::HaffWerner, false>;
+    tile[1][1] = tile_forces<Normal, laws::HaffWerner, true>;
     t[0][0] = pair_forces<Normal, laws::Frictionless, false>;
     t[0][1] = pair_forces<Normal, laws::Frictionless, true>;
     t[1][0] = pair_forces<Normal, laws::HaffWerner, false>;
@@ -273,11 +339,17 @@ template <class Normal> void fill_pairs(PairKernel (&t)[2][2]) {
 MdKernels make_table() {
     MdKernels t{};
     int law = 0;
-#define NORMAL(type, choice) fill_pairs<laws::type>(t.pair[law++]);
+#define NORMAL(type, choice)                                                                                 \
+    fill_pairs<laws::type>(t.pair[law], t.tile[law]);                                                        \
+    ++law;
 #include "laws/laws.def"
     t.lattice_full[0] = t.lattice_full[1] = lattice_full;
     t.lattice_half[0] = t.lattice_half[1] = lattice_half;
     t.cells = cells_full;
+    t.candidates = cell_candidates;
+    t.near_pairs = near_pairs;
+    fill_motion<3, false>(t);
+    fill_motion<3, true>(t);
     fill_motion<4, false>(t);
     fill_motion<4, true>(t);
     fill_motion<5, false>(t);

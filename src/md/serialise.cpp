@@ -103,6 +103,7 @@ void Simulation::restore(const std::string& bytes) {
     sorted_ = true;
     state_.refresh_records(plan_.dt);
     walls_.invalidate();
+    lists_.invalidate();
     bin();
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace sandlane::md {
 
@@ -29,12 +30,26 @@ Simulation::Simulation(scene::Scene scene, const std::vector<scene::GrainState>&
                        Plan plan)
     : scene_(std::move(scene)), needs_(needs), plan_(std::move(plan)), kernels_(&simd::md_kernels(plan_.isa)),
       coefficients_(pair_table(scene_)), walls_(scene_, plan_, needs_) {
-    if (is_lattice(plan_.neighbours))
+    prepare_method();
+    start(grains);
+}
+
+// What the method of pair finding needs, for an unsorted state.
+void Simulation::prepare_method() {
+    lattice_ = Lattice();
+    cells_ = LinkCells();
+    lists_ = PairLists();
+    state_.double_records = plan_.neighbours == NeighbourMethod::verlet;
+    if (is_lattice(plan_.neighbours)) {
         lattice_ = Lattice(scene_, plan_, needs_.radius_max);
-    else
+    } else if (plan_.neighbours == NeighbourMethod::verlet) {
+        lists_ = PairLists(scene_, plan_, needs_);
+        accumulators_.assign(static_cast<std::size_t>(plan_.threads),
+                             Column<double>((tile_size + block_width) * simd::force_fields, 0.0));
+    } else {
         cells_ =
             LinkCells(scene_, plan_, needs_.radius_max, plan_.neighbours == NeighbourMethod::brute_force);
-    start(grains);
+    }
 }
 
 // Accelerations before the first step: without them every velocity would keep an error of a dt/2 (4.7).
@@ -71,13 +86,16 @@ void Simulation::run(std::int64_t steps) {
         if (step_ % sort_interval == 0 || !sorted_) sort_by_place();
         const std::int64_t stop = next_stop(end);
         integrate(false, true);
-        for (;;) {
-            compute_forces();
+        while (step_ < stop) {
+            const bool predict = step_ + 1 < stop;
+            if (plan_.neighbours == NeighbourMethod::verlet) {
+                forces_and_motion(predict);
+            } else {
+                compute_forces();
+                integrate(true, predict);
+            }
             ++step_;
-            if (step_ == stop) break;
-            integrate(true, true);
         }
-        integrate(true, false);
     }
 }
 
@@ -97,45 +115,112 @@ std::int64_t Simulation::next_stop(std::int64_t end) const {
 
 void Simulation::integrate(bool correct, bool predict) {
     const auto& table = correct ? (predict ? kernels_->advance : kernels_->correct) : kernels_->predict;
-    const simd::MotionKernel kernel = table[plan_.order - 4][plan_.spin ? 1 : 0];
-    const simd::MotionView view = motion_view();
+    const simd::MotionKernel kernel = table[plan_.order - 3][plan_.spin ? 1 : 0];
+    const simd::MotionView whole = motion_view();
     const std::size_t n = state_.size();
     const bool on_lattice = predict && is_lattice(plan_.neighbours);
-    std::vector<simd::MotionResult> results(state_.tiles());
+    motion_results_.assign(state_.tiles(), {});
     for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
         const std::size_t begin = tile * tile_size, end = std::min(n, begin + tile_size);
-        results[tile] = kernel(view, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end));
-        if (on_lattice && results[tile].outside == 0) lattice_.leave(state_, kernels_->bin, begin, end);
+        simd::MotionView view = whole;
+        view.force += begin * simd::force_fields;
+        motion_results_[tile] =
+            kernel(view, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end));
+        if (on_lattice && motion_results_[tile].outside == 0)
+            lattice_.leave(state_, kernels_->bin, begin, end);
     });
+    if (predict) check_motion();
+}
+
+// One pass over the tiles: forces at the predicted positions, correction, and the next prediction, whose
+// records go to the other buffer because tiles that come later still need these.
+void Simulation::forces_and_motion(bool predict) {
+    const auto& table = predict ? kernels_->advance : kernels_->correct;
+    const simd::MotionKernel kernel = table[plan_.order - 3][plan_.spin ? 1 : 0];
+    simd::MotionView whole = motion_view();
+    whole.records = state_.next_record.data();
+    walls_.move_to(static_cast<double>(force_step_) * plan_.dt);
+    walls_.update(state_, state_.record.data());
+    lists_.update(state_, pair_view(), *kernels_, plan_.threads);
+    const std::size_t n = state_.size();
+    motion_results_.assign(state_.tiles(), {});
+    wall_results_.assign(state_.tiles(), {});
+    tile_overlaps_.assign(state_.tiles(), 0.0);
+    for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
+        const std::size_t begin = tile * tile_size, end = std::min(n, begin + tile_size);
+        simd::MotionView view = whole;
+        view.force = add_tile_forces(tile);
+        motion_results_[tile] =
+            kernel(view, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end));
+    });
+    check_overlap(*std::max_element(tile_overlaps_.begin(), tile_overlaps_.end()));
+    check_walls();
+    ++force_step_;
     if (!predict) return;
+    state_.record.swap(state_.next_record);
+    check_motion();
+}
+
+// Forces on the grains of a tile in the calling thread's accumulator, which the motion kernel clears.
+double* Simulation::add_tile_forces(std::size_t tile) {
+    double* force = accumulators_[static_cast<std::size_t>(thread_index())].data();
+    const simd::TileKernel kernel =
+        kernels_->tile[plan_.normal][plan_.tangential][plan_.many_materials ? 1 : 0];
+    tile_overlaps_[tile] = kernel(pair_view(), lists_.tile(tile, state_), force, 0.0);
+    if (!walls_.empty())
+        wall_results_[tile] = walls_.add_forces(wall_input(force, tile * tile_size), tile, state_.size(),
+                                                plan_.isa != simd::Isa::scalar);
+    return force;
+}
+
+// After a prediction: guards on the speed, lists and lattice follow the grains, grains outside leave.
+void Simulation::check_motion() {
     double speed2 = 0;
     std::int64_t outside = 0;
-    for (const simd::MotionResult& r : results) {
+    for (const simd::MotionResult& r : motion_results_) {
         speed2 = std::max(speed2, r.largest_speed2);
         outside += r.outside;
     }
     largest_speed_ = std::sqrt(speed2);
     if (largest_speed_ * plan_.dt > 0.1 * needs_.radius_min)
-        fail(Exit::unstable,
-             "step {}, t = {:.6g} s: a grain moves at {:.4g} m/s, {:.3g} m per step, more than 0.1 R_min = "
-             "{:.3g} m. The "
-             "time step is too large for this flow, or the run has become unstable; lower md.dt below {:.3g} "
-             "s.",
-             step_, time(), largest_speed_, largest_speed_ * plan_.dt, 0.1 * needs_.radius_min,
-             0.1 * needs_.radius_min / largest_speed_);
+        fail(
+            Exit::unstable,
+            "step {}, t = {:.6g} s: a grain moves at {:.4g} m/s, {:.3g} m per step, more than 0.1 R_min = "
+            "{:.3g} m. The time step is too large for this flow, or the run has become unstable; lower md.dt "
+            "below {:.3g} s.",
+            step_, time(), largest_speed_, largest_speed_ * plan_.dt, 0.1 * needs_.radius_min,
+            0.1 * needs_.radius_min / largest_speed_);
+    // The factor covers what a contact changes of the speed within the step.
     walls_.account(1.25 * plan_.dt * (largest_speed_ + walls_.fastest()));
+    lists_.account(1.25 * plan_.dt * largest_speed_);
     if (outside > 0) return handle_outside();
-    if (on_lattice)
+    if (is_lattice(plan_.neighbours))
         for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
-            lattice_.enter(state_, tile * tile_size, std::min(n, (tile + 1) * tile_size));
+            lattice_.enter(state_, tile * tile_size, std::min(state_.size(), (tile + 1) * tile_size));
         });
 }
 
 // Forces at the predicted positions, time (step + 1) dt; at the start, of the initial state.
 void Simulation::compute_forces() {
     walls_.move_to(static_cast<double>(force_step_) * plan_.dt);
-    pair_forces();
-    wall_forces();
+    walls_.update(state_, state_.record.data());
+    if (plan_.neighbours == NeighbourMethod::verlet) {
+        lists_.update(state_, pair_view(), *kernels_, plan_.threads);
+        tile_overlaps_.assign(state_.tiles(), 0.0);
+        wall_results_.assign(state_.tiles(), {});
+        for (std::size_t tile = 0; tile < state_.tiles(); ++tile) {
+            double* force = add_tile_forces(tile);
+            const std::size_t begin = tile * tile_size, count = std::min(state_.size() - begin, tile_size);
+            for (std::size_t n = 0; n < count * simd::force_fields; ++n)
+                state_.force[begin * simd::force_fields + n] = std::exchange(force[n], 0.0);
+        }
+        check_overlap(
+            tile_overlaps_.empty() ? 0.0 : *std::max_element(tile_overlaps_.begin(), tile_overlaps_.end()));
+        check_walls();
+    } else {
+        pair_forces();
+        wall_forces();
+    }
     ++force_step_;
 }
 
@@ -187,14 +272,34 @@ void Simulation::pair_forces() {
 
 void Simulation::wall_forces() {
     if (walls_.empty()) return;
-    const bool list = plan_.isa != simd::Isa::scalar;
-    const WallResult worst = walls_.add_forces(
-        state_, coefficients_, static_cast<int>(scene_.materials.size()), plan_.threads, list);
+    wall_results_.assign(state_.tiles(), {});
+    for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
+        const std::size_t first = tile * tile_size;
+        wall_results_[tile] =
+            walls_.add_forces(wall_input(state_.force.data() + first * simd::force_fields, first), tile,
+                              state_.size(), plan_.isa != simd::Isa::scalar);
+    });
+    check_walls();
+}
+
+WallInput Simulation::wall_input(double* force, std::size_t first) const {
+    return {state_.record.data(),
+            state_.material.data(),
+            coefficients_.data(),
+            static_cast<int>(scene_.materials.size()),
+            force,
+            first};
+}
+
+void Simulation::check_walls() const {
+    WallResult worst;
+    for (const WallResult& r : wall_results_)
+        if (r.largest_ratio > worst.largest_ratio) worst = r;
     if (worst.largest_ratio < 0.9) return;
     fail(Exit::unstable,
          "step {}, t = {:.6g} s: grain {} overlaps wall \"{}\" by {:.3g} of its radius (allowed: 0.9). "
-         "Stiffen the "
-         "material, lower md.dt, or check the wall's motion.",
+         "Stiffen "
+         "the material, lower md.dt, or check the wall's motion.",
          step_, time(), state_.id[static_cast<std::size_t>(worst.grain)],
          scene_.walls[static_cast<std::size_t>(worst.wall)].name, worst.largest_ratio);
 }
@@ -261,6 +366,7 @@ void Simulation::sort_by_place() {
                      [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
     state_.reorder(order);
     walls_.invalidate();
+    lists_.invalidate();
     if (is_lattice(plan_.neighbours)) lattice_.clear(state_);
     state_.refresh_records(plan_.dt);
 }
@@ -335,14 +441,14 @@ void Simulation::handle_outside() {
     }
     state_.reorder(kept);
     walls_.invalidate();
+    lists_.invalidate();
     bin();
 }
 
 void Simulation::use_link_cells() {
     plan_.neighbours = NeighbourMethod::link_cells;
     plan_.may_switch = false;
-    cells_ = LinkCells(scene_, plan_, needs_.radius_max, false);
-    lattice_ = Lattice();
+    prepare_method();
 }
 
 void Simulation::check_overlap(double overlap) const {
@@ -380,34 +486,21 @@ Observables Simulation::observe() const {
     return md::observe(scene_, plan_, state_, now, coefficients_);
 }
 
-std::vector<double> Simulation::forces(simd::Isa isa, NeighbourMethod method) {
-    const Plan plan = plan_;
-    const auto force_step = force_step_;
-    Lattice lattice = lattice_;
-    LinkCells cells = cells_;
-    plan_.isa = isa;
-    plan_.neighbours = method;
-    plan_.may_switch = false;
-    kernels_ = &simd::md_kernels(isa);
-    state_.refresh_records(plan_.dt);
-    walls_.invalidate();
-    if (is_lattice(method))
-        lattice_ = Lattice(scene_, plan_, needs_.radius_max);
-    else
-        cells_ = LinkCells(scene_, plan_, needs_.radius_max, method == NeighbourMethod::brute_force);
-    bin();
-    force_step_ = step_;
-    compute_forces();
-    std::vector<double> result(state_.force.begin(),
-                               state_.force.begin() +
-                                   static_cast<std::ptrdiff_t>(state_.size()) * simd::force_fields);
-    state_.force.fill(0.0);
-    force_step_ = force_step;
-    plan_ = plan;
-    kernels_ = &simd::md_kernels(plan_.isa);
-    lattice_ = std::move(lattice);
-    cells_ = std::move(cells);
-    return result;
+std::vector<double> Simulation::forces(simd::Isa isa, NeighbourMethod method) const {
+    Simulation other(*this);
+    other.plan_.isa = isa;
+    other.plan_.neighbours = method;
+    other.plan_.may_switch = false;
+    other.kernels_ = &simd::md_kernels(isa);
+    other.prepare_method();
+    other.state_.resize_records();
+    other.state_.refresh_records(plan_.dt);
+    other.walls_.invalidate();
+    other.bin();
+    other.force_step_ = step_;
+    other.compute_forces();
+    return {other.state_.force.begin(),
+            other.state_.force.begin() + static_cast<std::ptrdiff_t>(state_.size()) * simd::force_fields};
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include "md/lattice.hpp"
 #include "md/link_cells.hpp"
 #include "md/observables.hpp"
+#include "md/pair_lists.hpp"
 #include "md/plan.hpp"
 #include "md/state.hpp"
 #include "md/walls.hpp"
@@ -31,7 +32,9 @@ public:
     [[nodiscard]] const Plan& plan() const { return plan_; }
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
     [[nodiscard]] const State& state() const { return state_; }
-    [[nodiscard]] std::size_t bytes() const { return state_.bytes() + lattice_.bytes() + cells_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const {
+        return state_.bytes() + lattice_.bytes() + cells_.bytes() + lists_.bytes();
+    }
 
     // Energies, contacts and overlaps of the present state; see observables.hpp.
     [[nodiscard]] Observables observe() const;
@@ -41,7 +44,7 @@ public:
 
     // Forces of the present state [particle][force_fields] by the plan's kernels, or by another table
     // (reference).
-    [[nodiscard]] std::vector<double> forces(simd::Isa isa, scene::NeighbourMethod method);
+    [[nodiscard]] std::vector<double> forces(simd::Isa isa, scene::NeighbourMethod method) const;
 
     [[nodiscard]] std::int64_t removed() const { return removed_; }
     [[nodiscard]] std::int64_t delayed() const { return delayed_; }
@@ -52,16 +55,22 @@ public:
     void restore(const std::string& bytes);
 
 private:
+    void prepare_method();
     void start(const std::vector<scene::GrainState>& grains);
     void sort_by_place();
     void insert_due();
     [[nodiscard]] bool has_room(const scene::GrainState& grain) const;
 
     void integrate(bool correct, bool predict);
+    void forces_and_motion(bool predict);
+    void check_motion();
     void bin();
     void pair_forces();
     void wall_forces();
+    void check_walls() const;
     void compute_forces();
+    [[nodiscard]] double* add_tile_forces(std::size_t tile);
+    [[nodiscard]] md::WallInput wall_input(double* force, std::size_t first) const;
     void handle_outside();
     void use_link_cells();
     [[noreturn]] void fail_overlap() const;
@@ -79,6 +88,12 @@ private:
     State state_;
     Lattice lattice_;
     LinkCells cells_;
+    PairLists lists_;
+    // Results of the tiles of one pass, and force accumulators of the threads.
+    std::vector<simd::MotionResult> motion_results_;
+    std::vector<WallResult> wall_results_;
+    std::vector<double> tile_overlaps_;
+    std::vector<Column<double>> accumulators_;
     Walls walls_;
     std::vector<scene::GrainState> waiting_; // poured grains, by time of insertion
     std::size_t next_waiting_ = 0;

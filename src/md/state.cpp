@@ -5,18 +5,18 @@
 namespace sandlane::md {
 
 std::size_t State::bytes() const {
-    return gear.bytes() + record.bytes() + force.bytes() + radius.bytes() + inverse_radius.bytes() +
-           mass.bytes() + inverse_mass.bytes() + spin_factor.bytes() + material.bytes() + image_x.bytes() +
-           image_y.bytes() + id.bytes();
+    return gear.bytes() + record.bytes() + next_record.bytes() + force.bytes() + radius.bytes() +
+           inverse_radius.bytes() + mass.bytes() + inverse_mass.bytes() + spin_factor.bytes() +
+           material.bytes() + image_x.bytes() + image_y.bytes() + id.bytes();
 }
 
 void State::resize(std::size_t n) {
     const std::size_t whole = padded(n);
     const auto fields = static_cast<std::size_t>(dofs * order);
     gear.resize(whole * fields, 0.0);
-    record.resize((whole + block_width) * simd::record_fields, 0.0);
     force.resize((whole + block_width) * simd::force_fields, 0.0);
     radius.resize(n, 0.0);
+    resize_records();
     inverse_radius.resize(n, 0.0);
     mass.resize(n, 0.0);
     inverse_mass.resize(n, 0.0);
@@ -25,6 +25,12 @@ void State::resize(std::size_t n) {
     image_x.resize(n, 0);
     image_y.resize(n, 0);
     id.resize(n, -1);
+}
+
+void State::resize_records() {
+    const std::size_t values = (padded(size()) + block_width) * simd::record_fields;
+    record.resize(values, 0.0);
+    next_record.resize(double_records ? values : 0, 0.0);
 }
 
 // Padding lanes go through the integrator like particles; gravity must not carry them to infinity for ever.
@@ -116,6 +122,9 @@ void State::refresh_records(double dt) {
         r[6] = inverse_radius[i];
         r[7] = 0.0;
     }
+    if (!double_records) return;
+    // A prediction writes positions and velocities, and radii only beside a spin.
+    for (std::size_t n = 0; n < size() * simd::record_fields; ++n) next_record[n] = record[n];
 }
 
 } // namespace sandlane::md

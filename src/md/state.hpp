@@ -13,14 +13,16 @@
 
 namespace sandlane::md {
 
-inline constexpr std::size_t tile_size = 1024; // particles: fixed, so that results do not depend on threads
+inline constexpr std::size_t tile_size = simd::tile_grains;
 
 // Only the columns that the plan needs are allocated: without friction there is no angle and no spin column.
 struct State {
-    int order = 5, dofs = 2; // stored derivatives; x, y (and phi)
-    Column<double> gear;     // [block][dof * order + k][lane], Nordsieck-scaled (md-spheres 4.1)
-    Column<double> record;   // [particle][record_fields], see simd/tables.hpp
-    Column<double> force;    // [particle][force_fields], zero between steps
+    int order = 5, dofs = 2;    // stored derivatives; x, y (and phi)
+    Column<double> gear;        // [block][dof * order + k][lane], Nordsieck-scaled (md-spheres 4.1)
+    Column<double> record;      // [particle][record_fields], see simd/tables.hpp
+    Column<double> next_record; // of the next step, where forces and motion share one pass (double_records)
+    bool double_records = false;
+    Column<double> force; // [particle][force_fields], zero between steps
     Column<double> radius, inverse_radius, mass, inverse_mass, spin_factor;
     Column<std::int32_t> material, image_x, image_y;
     Column<std::int64_t> id;
@@ -39,6 +41,8 @@ struct State {
     void reorder(std::span<const std::uint32_t> order);
     // After a restore: sizes the derived columns and checks that all have one length.
     void adopt(const Plan& plan);
+    // Makes room for as many buffers of records as double_records says.
+    void resize_records();
     // Rewrites records from the state, for the time of the state.
     void refresh_records(double dt);
 

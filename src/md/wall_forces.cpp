@@ -1,5 +1,4 @@
 // Forces of walls on grains: candidate list, its upkeep, and the kernels, one per law of laws.def.
-#include "core/parallel.hpp"
 #include "md/walls.hpp"
 
 #include <algorithm>
@@ -10,18 +9,18 @@ namespace sandlane::md {
 namespace {
 
 template <class Normal, class Tangential>
-WallResult wall_forces(const Walls& walls, State& state, const double* coefficients, int materials,
-                       const NearWall* begin, const NearWall* end) {
+WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWall* begin,
+                       const NearWall* end) {
     WallResult result;
     for (const NearWall* n = begin; n != end; ++n) {
         const std::size_t i = n->grain;
-        const double* r = state.record.data() + i * simd::record_fields;
+        const double* r = input.records + i * simd::record_fields;
         const WallContact c = walls.contact(n->element, {r[0], r[1], 0});
         const double reach = r[5] + c.radius;
         if (!c.valid || c.distance >= reach) continue;
         const WallElement& element = walls.elements()[n->element];
-        const double* k =
-            coefficients + (state.material[i] * materials + element.material) * laws::pair_coefficients;
+        const double* k = input.coefficients +
+                          (input.material[i] * input.materials + element.material) * laws::pair_coefficients;
         const laws::PairState<double> pair{c.distance * c.direction.x,
                                            c.distance * c.direction.y,
                                            c.velocity.x - r[2],
@@ -30,7 +29,7 @@ WallResult wall_forces(const Walls& walls, State& state, const double* coefficie
                                            reach,
                                            r[6] + c.inverse_radius};
         const auto f = laws::pair_force<Normal, Tangential, double>(pair, {k[0], k[1], k[2], k[3]});
-        double* force = state.force.data() + i * simd::force_fields;
+        double* force = input.force + (i - input.first) * simd::force_fields;
         force[0] += f.x;
         force[1] += f.y;
         force[2] += f.tangential;
@@ -139,12 +138,16 @@ double surface_distance(const WallElement& e, Vec p) {
 
 } // namespace
 
-void Walls::rebuild(const State& state) {
+void Walls::update(const State& state, const double* records) {
+    if (budget_ < 0) rebuild(state, records);
+}
+
+void Walls::rebuild(const State& state, const double* records) {
     near_.clear();
     tile_begin_.assign(1, 0);
     const ElementGrid grid(*this, lower_, upper_, radius_max_ + skin_, state.size());
     for (std::size_t i = 0; i < state.size(); ++i) {
-        const double* r = state.record.data() + i * simd::record_fields;
+        const double* r = records + i * simd::record_fields;
         for (const std::uint32_t e : grid.at(r[0], r[1]))
             if (surface_distance(elements_[e], {r[0], r[1], 0}) < r[5] + skin_)
                 near_.push_back({static_cast<std::uint32_t>(i), e});
@@ -154,28 +157,18 @@ void Walls::rebuild(const State& state) {
     budget_ = 0.8 * skin_; // the rest covers what the speed bound of a step misses
 }
 
-WallResult Walls::add_forces(State& state, const std::vector<double>& coefficients, int materials,
-                             int threads, bool list) {
-    std::vector<WallResult> results(state.tiles());
-    if (list && budget_ < 0) rebuild(state);
-    for_tiles(state.tiles(), threads, [&](std::size_t tile) {
-        if (list) {
-            const NearWall* all = near_.data();
-            results[tile] = kernel_(*this, state, coefficients.data(), materials, all + tile_begin_[tile],
-                                    all + tile_begin_[tile + 1]);
-            return;
-        }
-        for (std::size_t i = tile * tile_size; i < std::min(state.size(), (tile + 1) * tile_size); ++i)
-            for (std::size_t e = 0; e < elements_.size(); ++e) {
-                const NearWall pair{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(e)};
-                const WallResult one =
-                    kernel_(*this, state, coefficients.data(), materials, &pair, &pair + 1);
-                if (one.largest_ratio > results[tile].largest_ratio) results[tile] = one;
-            }
-    });
+WallResult Walls::add_forces(const WallInput& input, std::size_t tile, std::size_t grains, bool list) const {
+    if (list) {
+        const NearWall* all = near_.data();
+        return kernel_(*this, input, all + tile_begin_[tile], all + tile_begin_[tile + 1]);
+    }
     WallResult worst;
-    for (const WallResult& r : results)
-        if (r.largest_ratio > worst.largest_ratio) worst = r;
+    for (std::size_t i = tile * tile_size; i < std::min(grains, (tile + 1) * tile_size); ++i)
+        for (std::size_t e = 0; e < elements_.size(); ++e) {
+            const NearWall pair{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(e)};
+            const WallResult one = kernel_(*this, input, &pair, &pair + 1);
+            if (one.largest_ratio > worst.largest_ratio) worst = one;
+        }
     return worst;
 }
 

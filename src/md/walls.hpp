@@ -49,9 +49,17 @@ struct NearWall {
 };
 
 class Walls;
+// Grains and coefficients for wall forces; `force` is the accumulator of grain `first`.
+struct WallInput {
+    const double* records;
+    const std::int32_t* material;
+    const double* coefficients;
+    int materials;
+    double* force;
+    std::size_t first;
+};
 // Adds the forces of a range of candidates; compiled per law (wall_forces.cpp).
-using WallKernel = WallResult (*)(const Walls&, State&, const double* coefficients, int materials,
-                                  const NearWall* begin, const NearWall* end);
+using WallKernel = WallResult (*)(const Walls&, const WallInput&, const NearWall* begin, const NearWall* end);
 [[nodiscard]] WallKernel wall_kernel(int normal, int tangential);
 
 class Walls {
@@ -69,9 +77,11 @@ public:
     void account(double distance) { budget_ -= distance; }
     void invalidate() { budget_ = -1; }
     [[nodiscard]] double fastest() const { return fastest_; }
-    // Adds wall forces of all grains; `list` = false looks at every element of every grain (reference).
-    WallResult add_forces(State& state, const std::vector<double>& coefficients, int materials, int threads,
-                          bool list);
+    // Makes the candidate list if something may have closed its skin since the last time.
+    void update(const State& state, const double* records);
+    // Adds the wall forces on the grains of one tile; `list` = false looks at every element (reference).
+    [[nodiscard]] WallResult add_forces(const WallInput& input, std::size_t tile, std::size_t grains,
+                                        bool list) const;
     [[nodiscard]] std::size_t list_size() const { return near_.size(); }
 
     [[nodiscard]] std::vector<analysis::WallShape> shapes(double time) const;
@@ -84,7 +94,7 @@ public:
     }
 
 private:
-    void rebuild(const State& state);
+    void rebuild(const State& state, const double* records);
     void add_wall(const scene::Scene& scene, std::size_t index);
     void add_chain(const std::vector<Vec>& points, bool closed, WallElement prototype);
     void add_grains(const scene::Wall& wall, WallElement prototype);

@@ -1,5 +1,6 @@
 // Gear predictor-corrector in Nordsieck form (md-spheres 4.1): X_k = dt^k/k! d^k y/dt^k, k = 0 .. order-1.
-// Coefficients c_k for velocity-dependent forces, which dissipative contacts are.
+// Coefficients c_k for velocity-dependent forces, which dissipative contacts are. Velocity Verlet in the form
+// of md-spheres 4.5 (forces at x(t + dt) and v(t) + dt a(t)) is the member with three values.
 #pragma once
 
 #include "core/real.hpp"
@@ -7,6 +8,9 @@
 namespace sandlane::motion {
 
 template <int order> struct Gear;
+template <> struct Gear<3> { // x += dt v + dt^2/2 a; v += dt/2 (a + a')
+    static constexpr double c[3] = {0.0, 1.0, 1.0};
+};
 template <> struct Gear<4> { // (2.28)
     static constexpr double c[4] = {1.0 / 6.0, 5.0 / 6.0, 1.0, 1.0 / 3.0};
 };
@@ -27,7 +31,8 @@ template <int order, class R> SANDLANE_INLINE void gear_predict(R (&x)[order]) {
 template <int order, class R>
 SANDLANE_INLINE void gear_correct(R (&x)[order], const R& acceleration, const R& half_dt2) {
     const R difference = half_dt2 * acceleration - x[2];
-    for (int k = 0; k < order; ++k) x[k] = x[k] + R(Gear<order>::c[k]) * difference;
+    for (int k = Gear<order>::c[0] == 0.0 ? 1 : 0; k < order; ++k)
+        x[k] = x[k] + R(Gear<order>::c[k]) * difference;
 }
 
 } // namespace sandlane::motion

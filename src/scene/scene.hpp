@@ -14,8 +14,8 @@ namespace sandlane::scene {
 enum class Engine { md };
 enum class NormalLaw { linear_dashpot, viscoelastic };
 enum class TangentialLaw { none, haff_werner };
-enum class Integrator { gear4, gear5, gear6 };
-enum class NeighbourMethod { automatic, brute_force, link_cells, lattice, lattice_half };
+enum class Integrator { gear4, gear5, gear6, velocity_verlet };
+enum class NeighbourMethod { automatic, brute_force, link_cells, lattice, lattice_half, verlet };
 enum class Inertia { disc, sphere };  // J = m R^2/2 or 2/5 m R^2 (md-spheres 1.4)
 enum class Body { sphere, disc };     // mass of a grain: 4/3 pi R^3 rho, or pi R^2 rho (per metre of depth)
 enum class Outside { error, remove }; // what happens to a grain that leaves an open side of the domain

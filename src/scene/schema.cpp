@@ -87,7 +87,7 @@ template <class T> Field<T> items_field(std::vector<GrainItem> T::*member, std::
 } // namespace
 
 const Choices& neighbour_choices() {
-    static const Choices choices = {"auto", "brute-force", "link-cells", "lattice", "lattice-half"};
+    static const Choices choices = {"auto", "brute-force", "link-cells", "lattice", "lattice-half", "verlet"};
     return choices;
 }
 
@@ -268,8 +268,8 @@ const Table<Md>& md_table() {
         Table<Md>("Force-based molecular dynamics.")
             .choice("normal", &Md::normal, {"linear-dashpot", "viscoelastic"}, "normal force")
             .choice("tangential", &Md::tangential, {"none", "haff-werner"}, "tangential force")
-            .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6"},
-                    "Gear predictor-corrector with 4, 5 or 6 values")
+            .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6", "velocity-verlet"},
+                    "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet")
             .choice("neighbours", &Md::neighbours, neighbour_choices(), "pair finding")
             .number("dt", &Md::dt, Unit::time, not_negative(),
                     "time step; 0: chosen from the stiffest contact (t_c/50)")

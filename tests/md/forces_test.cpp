@@ -10,7 +10,7 @@ using scene::NeighbourMethod;
 
 namespace {
 
-constexpr const char* method_names[] = {"auto", "brute", "cells", "lattice", "lattice_half"};
+constexpr const char* method_names[] = {"auto", "brute", "cells", "lattice", "lattice_half", "verlet"};
 
 struct Case {
     simd::Isa isa;
@@ -20,8 +20,9 @@ struct Case {
 std::vector<Case> all_cases() {
     std::vector<Case> cases;
     for (const simd::Isa isa : simd::available_isas())
-        for (const auto method : {NeighbourMethod::brute_force, NeighbourMethod::link_cells,
-                                  NeighbourMethod::lattice, NeighbourMethod::lattice_half})
+        for (const auto method :
+             {NeighbourMethod::brute_force, NeighbourMethod::link_cells, NeighbourMethod::lattice,
+              NeighbourMethod::lattice_half, NeighbourMethod::verlet})
             cases.push_back({isa, method});
     return cases;
 }
@@ -94,8 +95,9 @@ std::vector<Variant> all_variants() {
     for (const bool equal_radii : {false, true})
         for (const auto normal : {scene::NormalLaw::linear_dashpot, scene::NormalLaw::viscoelastic})
             for (const auto tangential : {scene::TangentialLaw::none, scene::TangentialLaw::haff_werner})
-                for (const auto method : {NeighbourMethod::brute_force, NeighbourMethod::link_cells,
-                                          NeighbourMethod::lattice, NeighbourMethod::lattice_half})
+                for (const auto method :
+                     {NeighbourMethod::brute_force, NeighbourMethod::link_cells, NeighbourMethod::lattice,
+                      NeighbourMethod::lattice_half, NeighbourMethod::verlet})
                     variants.push_back({method, normal, tangential, equal_radii});
     return variants;
 }

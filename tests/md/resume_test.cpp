@@ -49,8 +49,8 @@ std::vector<scene::GrainState> falling_grains() {
 } // namespace
 
 TEST(Resume, SameBitsAsUndisturbed) {
-    for (const auto method :
-         {NeighbourMethod::lattice, NeighbourMethod::lattice_half, NeighbourMethod::link_cells}) {
+    for (const auto method : {NeighbourMethod::lattice, NeighbourMethod::lattice_half,
+                              NeighbourMethod::link_cells, NeighbourMethod::verlet}) {
         const scene::Scene s = falling_scene(method);
         const auto grains = falling_grains();
         md::Simulation straight = test::make_simulation(s, grains, simd::available_isas().back());
@@ -69,12 +69,14 @@ TEST(Resume, SameBitsAsUndisturbed) {
 }
 
 TEST(Resume, OneStepAtATimeIsTheSameRun) {
-    const scene::Scene s = falling_scene(NeighbourMethod::lattice_half);
-    md::Simulation straight = test::make_simulation(s, falling_grains(), simd::available_isas().back());
-    md::Simulation stepped = test::make_simulation(s, falling_grains(), simd::available_isas().back());
-    straight.run(400);
-    for (int n = 0; n < 400; ++n) stepped.run(1);
-    EXPECT_EQ(stepped.state_hash(), straight.state_hash());
+    for (const auto method : {NeighbourMethod::lattice_half, NeighbourMethod::verlet}) {
+        const scene::Scene s = falling_scene(method);
+        md::Simulation straight = test::make_simulation(s, falling_grains(), simd::available_isas().back());
+        md::Simulation stepped = test::make_simulation(s, falling_grains(), simd::available_isas().back());
+        straight.run(400);
+        for (int n = 0; n < 400; ++n) stepped.run(1);
+        EXPECT_EQ(stepped.state_hash(), straight.state_hash());
+    }
 }
 
 TEST(Resume, StateOfAnotherSceneIsRefused) {

@@ -55,6 +55,13 @@ TEST(Gear, DampedErrors) {
     EXPECT_NEAR(std::log2(oscillator_error<5>(0.1, 100) / oscillator_error<5>(0.1, 400)) / 2, 4.0, 0.2);
 }
 
+TEST(VelocityVerlet, Errors) {
+    EXPECT_NEAR(oscillator_error<3>(0, 100), 1.03e-3, 0.01e-3);
+    EXPECT_NEAR(oscillator_error<3>(0.1, 100), 7.33e-4, 0.01e-4);
+    EXPECT_NEAR(std::log2(oscillator_error<3>(0, 200) / oscillator_error<3>(0, 400)), 2.0, 0.2);
+    EXPECT_NEAR(std::log2(oscillator_error<3>(0.1, 100) / oscillator_error<3>(0.1, 400)) / 2, 2.0, 0.2);
+}
+
 TEST(Gear, ConstantAccelerationIsExact) {
     const double g = -9.81, dt = 1e-3;
     double x[5] = {2.0, 3.0 * dt, 0.5 * g * dt * dt, 0, 0};
