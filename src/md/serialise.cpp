@@ -104,7 +104,7 @@ void Simulation::restore(const std::string& bytes) {
     state_.refresh_records(plan_.dt);
     walls_.invalidate();
     lists_.invalidate();
-    bin();
+    if (lattice_.rows() > 0) lattice_.clear(state_); // the next prediction puts all grains on it
 }
 
 } // namespace sandlane::md
