@@ -1,5 +1,6 @@
-// Periodic box of agitated discs at a given packing fraction: a state that every pair-finding method accepts
-// and that stays alive, for throughput measurements. Radii +-10 % unless equal.
+// Periodic box of discs at a given packing fraction, for throughput measurements: a state that every
+// pair-finding method accepts. Up to 0.82 an elastic gas that friction cools slowly; beyond jamming a packing
+// at rest. Radii +-10 % unless equal.
 #pragma once
 
 #include "core/rng.hpp"
@@ -20,12 +21,18 @@ struct Setup {
     scene::Integrator integrator = scene::Integrator::gear5;
 };
 
-// Triangular start, thermal speeds: contact time much below the time between collisions at low density,
-// several contacts per grain at 0.82.
+// Below the packing fraction of a jammed disc packing there is no damping, above it strong damping brings the
+// start to rest: 0.01 touching neighbours per grain at 0.2, about one at 0.82, between four and five at 0.88.
+inline constexpr double jammed = 0.85;
+
+// Rows and columns of the start: even, as the triangular lattice needs in a periodic box.
+inline std::int64_t side_of(const Setup& setup) {
+    return 2 * std::llround(0.5 * std::sqrt(static_cast<double>(setup.grains)));
+}
+
 inline scene::Scene agitated_scene(const Setup& setup) {
     scene::Scene s;
-    const auto side =
-        static_cast<double>(std::llround(std::sqrt(static_cast<double>(setup.grains)) * 0.5) * 2);
+    const auto side = static_cast<double>(side_of(setup));
     const double spacing = std::sqrt(2 * std::numbers::pi / (std::sqrt(3.0) * setup.packing_fraction));
     s.title = "agitated discs";
     s.domain.upper = {side * spacing, side * spacing * std::sqrt(3.0) / 2, 0};
@@ -34,7 +41,7 @@ inline scene::Scene agitated_scene(const Setup& setup) {
     m.name = "disc";
     m.density = 1 / std::numbers::pi;
     m.stiffness = 1e4;
-    m.damping = 0.0;
+    m.damping = setup.packing_fraction > jammed ? 30.0 : 0.0;
     m.young = 1e4;
     m.friction = setup.friction ? 0.3 : 0.0;
     m.tangential_damping = setup.friction ? 0.1 : 0.0;
@@ -51,8 +58,7 @@ inline scene::Scene agitated_scene(const Setup& setup) {
 
 inline std::vector<scene::GrainState> agitated_grains(const Setup& setup, const scene::Scene& s) {
     std::vector<scene::GrainState> grains;
-    const auto side =
-        static_cast<std::int64_t>(std::llround(std::sqrt(static_cast<double>(setup.grains)) * 0.5) * 2);
+    const std::int64_t side = side_of(setup);
     const double spacing = s.domain.upper.x / static_cast<double>(side);
     const Random radius(1, Stream::radius), velocity(1, Stream::velocity);
     for (std::int64_t n = 0; n < side * side; ++n) {
@@ -71,9 +77,25 @@ inline std::vector<scene::GrainState> agitated_grains(const Setup& setup, const 
     return grains;
 }
 
-inline md::Simulation make(const Setup& setup, simd::Isa isa, int threads) {
+// The grains of a simulation as the start of another.
+inline std::vector<scene::GrainState> later_grains(const md::Simulation& simulation) {
+    const analysis::Snapshot now = simulation.snapshot();
+    std::vector<scene::GrainState> grains(now.size());
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        scene::GrainState& g = grains[i];
+        g.id = now.id[i];
+        g.position = {now.x[i], now.y[i], 0};
+        g.velocity = {now.vx[i], now.vy[i], 0};
+        g.omega = now.omega[i];
+        g.radius = now.radius[i];
+        g.mass = now.mass[i];
+    }
+    return grains;
+}
+
+inline md::Simulation make(const Setup& setup, const std::vector<scene::GrainState>& grains, simd::Isa isa,
+                           int threads) {
     const scene::Scene s = agitated_scene(setup);
-    const auto grains = agitated_grains(setup, s);
     const md::Needs needs = md::analyse(s, grains);
     return {s, grains, needs, md::make_plan(s, needs, md::derive(s, needs), isa, {threads, "benchmark"})};
 }

@@ -1,74 +1,149 @@
-// Whole time steps of molecular dynamics in particle-steps per second: instruction set x method x law x
-// packing fraction x number of grains x threads. `tools/bench` prints the distance to the measured roofline
-// beside it.
+// Whole time steps of molecular dynamics in particle-steps per second: method x law x packing fraction x
+// number of grains x instruction set x threads, each with the roofline of its case (step_cost.hpp).
+// --rounds=R registers every case R times in turn, A B A B, so that slow drifts of the machine hit all cases
+// alike.
 #include "agitated_discs.hpp"
+#include "core/progress.hpp"
+#include "step_cost.hpp"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <charconv>
+#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace {
 
 using namespace sandlane;
 using scene::NeighbourMethod;
 
-void step(benchmark::State& state, bench::Setup setup, simd::Isa isa, int threads) {
-    md::Simulation simulation = bench::make(setup, isa, threads);
-    simulation.run(setup.grains > 300000 ? 200 : 1000); // contacts form
-    const std::int64_t block = setup.grains > 300000 ? 20 : setup.grains > 30000 ? 100 : 1000;
+struct Case {
+    bench::Setup setup;
+    simd::Isa isa = simd::Isa::scalar;
+    int threads = 1;
+};
+
+std::string law_name(const bench::Setup& s) {
+    return fmt::format("{}{}{}{}", s.normal == scene::NormalLaw::viscoelastic ? "hertz" : "linear",
+                       s.friction ? "+friction" : "", s.equal_radii ? "+equal" : "",
+                       s.integrator == scene::Integrator::velocity_verlet ? "+vv" : "");
+}
+
+std::string name_of(const Case& c) {
+    static const char* methods[] = {"auto", "brute", "cells", "lattice", "half", "verlet"};
+    return fmt::format("md/{}/{}/phi={}/N={}/{}/threads={}", methods[static_cast<int>(c.setup.neighbours)],
+                       law_name(c.setup), c.setup.packing_fraction, c.setup.grains, simd::isa_name(c.isa),
+                       c.threads);
+}
+
+// The state that all methods, instruction sets and thread counts of a setup start from.
+const std::vector<scene::GrainState>& agitated(bench::Setup setup) {
+    static std::map<std::string, std::vector<scene::GrainState>> known;
+    constexpr std::size_t large = 300000; // grains: of these only the last state is kept
+    setup.integrator = scene::Integrator::gear5;
+    const std::string key = fmt::format("{}/{}/{}", law_name(setup), setup.packing_fraction, setup.grains);
+    const auto found = known.find(key);
+    if (found != known.end()) return found->second;
+    if (setup.grains > large)
+        std::erase_if(known, [](const auto& entry) { return entry.second.size() > large; });
+    setup.neighbours = NeighbourMethod::automatic;
+    const auto start = bench::agitated_grains(setup, bench::agitated_scene(setup));
+    md::Simulation simulation = bench::make(setup, start, simd::available_isas().back(), 1);
+    const bool at_rest = setup.packing_fraction > bench::jammed;
+    simulation.run(setup.grains > large ? 200 : at_rest ? 3000 : 1000);
+    return known.emplace(key, bench::later_grains(simulation)).first->second;
+}
+
+// The library calls a benchmark several times to find its number of iterations; the simulation goes on
+// meanwhile.
+md::Simulation& running(const Case& c) {
+    static std::string name;
+    static std::optional<md::Simulation> simulation;
+    if (name != name_of(c)) {
+        simulation.reset();
+        simulation.emplace(bench::make(c.setup, agitated(c.setup), c.isa, c.threads));
+        name = name_of(c);
+    }
+    return *simulation;
+}
+
+void step(benchmark::State& state, const Case& c) {
+    md::Simulation& simulation = running(c);
+    const auto n = static_cast<double>(simulation.state().size());
+    const std::int64_t block = std::max<std::int64_t>(4, 1000000 / static_cast<std::int64_t>(c.setup.grains));
+    simulation.run(block);
     std::int64_t steps = 0;
+    const Stopwatch clock;
     for (auto _ : state) {
         simulation.run(block);
         steps += block;
     }
-    const md::Observables o = simulation.observe();
-    const auto n = static_cast<double>(simulation.state().size());
-    state.counters["particle_steps_per_second"] =
-        benchmark::Counter(static_cast<double>(steps) * n, benchmark::Counter::kIsRate);
-    state.counters["contacts_per_grain"] = 2 * static_cast<double>(o.contacts) / n;
-    state.counters["bytes_per_grain"] = static_cast<double>(simulation.bytes()) / n;
+    const double rate = static_cast<double>(steps) * n / clock.seconds();
+    const double contacts = static_cast<double>(simulation.observe().contacts) / n;
+    const bench::StepCost cost = bench::step_cost(simulation, contacts);
+    const bench::Bound bound = bench::bound(cost, simulation);
+    state.counters["particle_steps_per_second"] = rate;
+    state.counters["neighbours"] = 2 * contacts; // touching, per grain
+    state.counters["bytes_per_step"] = cost.bytes;
+    state.counters["operations_per_step"] =
+        cost.arithmetic + cost.single_arithmetic + cost.divide + cost.square_root;
+    state.counters["bound_bytes"] = bound.bytes;
+    state.counters["bound_compute"] = bound.compute;
+    state.counters["of_bound"] = rate / bound.least();
+    state.counters["working_set"] = static_cast<double>(simulation.bytes());
 }
 
-std::string name_of(const bench::Setup& s, simd::Isa isa, int threads) {
-    static const char* methods[] = {"auto", "brute", "cells", "lattice", "half", "verlet"};
-    return fmt::format("md/{}/{}{}{}{}/phi={}/N={}/{}/threads={}", methods[static_cast<int>(s.neighbours)],
-                       s.normal == scene::NormalLaw::viscoelastic ? "hertz" : "linear",
-                       s.friction ? "+friction" : "", s.equal_radii ? "+equal" : "",
-                       s.integrator == scene::Integrator::velocity_verlet ? "+vv" : "", s.packing_fraction,
-                       s.grains, simd::isa_name(isa), threads);
-}
-
-void add(const bench::Setup& setup, simd::Isa isa, int threads) {
-    benchmark::RegisterBenchmark(name_of(setup, isa, threads).c_str(),
-                                 [=](benchmark::State& state) { step(state, setup, isa, threads); })
+void add(const Case& c) {
+    benchmark::RegisterBenchmark(name_of(c).c_str(), [=](benchmark::State& state) { step(state, c); })
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
 }
 
+// All methods, instruction sets and thread counts of one system.
+void add_methods(bench::Setup setup) {
+    for (const auto method : {NeighbourMethod::lattice, NeighbourMethod::lattice_half,
+                              NeighbourMethod::link_cells, NeighbourMethod::verlet})
+        for (const auto integrator : {scene::Integrator::gear5, scene::Integrator::velocity_verlet})
+            for (const simd::Isa isa : simd::available_isas())
+                for (int threads = 1; threads <= std::min(2, allowed_cpus()); ++threads) {
+                    setup.neighbours = method;
+                    setup.integrator = integrator;
+                    add({setup, isa, threads});
+                }
+}
+
 void add_all() {
     for (const std::size_t n : {1000U, 10000U, 100000U, 1000000U})
-        for (const double phi : {0.2, 0.5, 0.82})
-            for (const auto method : {NeighbourMethod::lattice, NeighbourMethod::lattice_half,
-                                      NeighbourMethod::link_cells, NeighbourMethod::verlet})
-                for (const auto normal : {scene::NormalLaw::linear_dashpot, scene::NormalLaw::viscoelastic})
-                    for (const bool friction : {true, false})
-                        for (const simd::Isa isa : simd::available_isas())
-                            for (const int threads : {1, 2}) {
-                                if (threads > allowed_cpus()) continue;
-                                add({n, phi, normal, friction, false, method}, isa, threads);
-                                if (method == NeighbourMethod::verlet)
-                                    add({n, phi, normal, friction, false, method,
-                                         scene::Integrator::velocity_verlet},
-                                        isa, threads);
-                            }
+        for (const double phi : {0.2, 0.5, 0.82, 0.88})
+            for (const auto normal : {scene::NormalLaw::linear_dashpot, scene::NormalLaw::viscoelastic})
+                for (const bool friction : {true, false}) add_methods({n, phi, normal, friction});
+}
+
+// Takes --rounds=R out of the arguments.
+int take_rounds(int& argc, char** argv) {
+    constexpr std::string_view option = "--rounds=";
+    int rounds = 1, kept = 0;
+    for (int a = 0; a < argc; ++a) {
+        const std::string_view text = argv[a];
+        if (text.starts_with(option))
+            std::from_chars(text.data() + option.size(), text.data() + text.size(), rounds);
+        else
+            argv[kept++] = argv[a];
+    }
+    argc = kept;
+    return rounds;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    add_all();
+    const int rounds = take_rounds(argc, argv);
+    for (int round = 0; round < rounds; ++round) add_all();
     benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     benchmark::RunSpecifiedBenchmarks();
     return 0;
 }

@@ -3,6 +3,8 @@
 // src/md/reference.cpp.
 #pragma once
 
+#include "laws/count.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -28,6 +30,7 @@ struct PairView {
     double period_x, period_y, half_x, half_y;
     const double* coefficients; // laws::PairCoefficients [materials][materials]
     std::int32_t materials;
+    double dt; // s: between two evaluations of a contact that remembers
 };
 
 // Which partners of a pair get the force.
@@ -76,17 +79,21 @@ inline constexpr std::int32_t tile_grains = 1024; // fixed, so that results do n
 struct TileList {
     const std::int32_t *i, *j; // storage indices, begin <= i < end
     std::int32_t count, begin, end;
+    // Of laws that remember: number f of pair n stands at memory[f * stride + n]; a pair that does not touch
+    // holds laws::no_contact.
+    double* memory;
+    std::ptrdiff_t stride;
 };
 // Adds the forces of the listed pairs that touch to the grains of the tile, in list order; `force` is the
 // accumulator of grain `begin`, with a row behind the last of a whole tile that takes what is not wanted.
 // Returns the largest overlap [m] (or `largest`).
 using TileKernel = double (*)(const PairView&, const TileList&, double* force, double largest);
 
-// Copies the pairs whose gap is below `skin`, in order; all four lists have room for eight pairs more than
-// `count`.
+// Copies the pairs whose gap is below `skin`, in order, and their positions in the list; all lists have room
+// for eight pairs more than `count`.
 using NearKernel = std::int32_t (*)(const PairView&, const std::int32_t* i, const std::int32_t* j,
                                     std::int32_t count, double skin, std::int32_t* near_i,
-                                    std::int32_t* near_j);
+                                    std::int32_t* near_j, std::int32_t* position);
 
 // Link cells: particles counting-sorted by cell. One cell in a direction means "all particles" in that
 // direction.
@@ -144,13 +151,14 @@ struct BinView {
 using BinKernel = void (*)(const BinView&, std::int64_t begin, std::int64_t end);
 
 struct MdKernels {
-    PairKernel pair[2][2][2];      // [normal law][tangential law][many materials]
+    // [normal law][tangential law][many materials]; null for laws that remember, which need lists
+    PairKernel pair[laws::normal_laws][laws::tangential_laws][2];
     LatticeKernel lattice_full[2]; // [many radii]
     LatticeKernel lattice_half[2];
     CellKernel cells;
     CandidateKernel candidates;
     NearKernel near_pairs;
-    TileKernel tile[2][2][2];                                 // [normal law][tangential law][many materials]
+    TileKernel tile[laws::normal_laws][laws::tangential_laws][2];
     MotionKernel predict[4][2], correct[4][2], advance[4][2]; // [order - 3][spin]
     BinKernel bin;
 };

@@ -74,10 +74,12 @@ std::int32_t cell_candidates(const CellView& cells, const PairView& view, std::i
 
 template <class Arch>
 std::int32_t near_pairs(const PairView& view, const std::int32_t* i, const std::int32_t* j,
-                        std::int32_t count, double skin, std::int32_t* near_i, std::int32_t* near_j) {
+                        std::int32_t count, double skin, std::int32_t* near_i, std::int32_t* near_j,
+                        std::int32_t* position) {
     using R = Block<Arch>;
     std::int32_t found = 0;
     for (std::int32_t n = 0; n < count; n += width) {
+        const std::int32_t here[width] = {n, n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7};
         R field[record_fields];
         CombinePairs<Arch>::apply(view.records, i + n, j + n, field);
         const R dx = minimum_image(field[0], view.half_x, view.period_x);
@@ -87,6 +89,7 @@ std::int32_t near_pairs(const PairView& view, const std::int32_t* i, const std::
         if (count - n < width) hits &= (1u << (count - n)) - 1u;
         Integers<Arch, width>(i + n).compress(hits, near_i + found);
         Integers<Arch, width>(j + n).compress(hits, near_j + found);
+        Integers<Arch, width>(here).compress(hits, position + found);
         found += __builtin_popcount(hits);
     }
     return found;

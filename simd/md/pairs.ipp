@@ -28,7 +28,8 @@ gather_coefficients(const PairView& view, const std::int32_t* i, const std::int3
         const double* entry = view.coefficients + pair * laws::pair_coefficients;
         for (int c = 0; c < laws::pair_coefficients; ++c) lanes[c][l] = entry[c];
     }
-    return {load<Arch>(lanes[0]), load<Arch>(lanes[1]), load<Arch>(lanes[2]), load<Arch>(lanes[3])};
+    return {load<Arch>(lanes[0]), load<Arch>(lanes[1]), load<Arch>(lanes[2]), load<Arch>(lanes[3]),
+            load<Arch>(lanes[4])};
 }
 
 SANDLANE_INLINE void add_row(double* force, std::int32_t particle, double x, double y, double t) {
@@ -63,9 +64,7 @@ double pair_forces(const PairView& view, const std::int32_t* i, const std::int32
     using R = Block<Arch>;
     alignas(64) double rows[pair_chunk * force_fields];
     laws::PairCoefficients<R> coefficients;
-    if constexpr (!many_materials)
-        coefficients = {R(view.coefficients[0]), R(view.coefficients[1]), R(view.coefficients[2]),
-                        R(view.coefficients[3])};
+    if constexpr (!many_materials) coefficients = laws::coefficients_from<R>(view.coefficients);
     R most(largest_overlap);
     for (std::int32_t first = 0; first < count; first += pair_chunk) {
         const int size = count - first < pair_chunk ? count - first : pair_chunk;

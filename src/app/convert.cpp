@@ -177,6 +177,7 @@ int render(const RenderOptions& options) {
     style.width = options.width > 0 ? options.width : static_cast<int>(wanted.picture_width);
     style.colour =
         colour == colours.end() ? wanted.colour : static_cast<scene::Colour>(colour - colours.begin());
+    style.body = simulation.scene().md.body;
     output::write_picture(options.png, simulation.snapshot(), style);
     return 0;
 }

@@ -1,8 +1,11 @@
 #include "app/run_outputs.hpp"
 
+#include "app/run_log.hpp"
 #include "core/file.hpp"
 #include "output/picture.hpp"
+#include "output/report.hpp"
 #include "scene/reader.hpp"
+#include "scene/schema.hpp"
 
 #include <fmt/format.h>
 
@@ -27,69 +30,27 @@ std::int64_t interval(double seconds, double duration, double parts, double dt) 
     return steps < 1e15 ? std::max<std::int64_t>(1, std::llround(steps)) : never;
 }
 
-const char* trajectory_name(scene::Trajectory kind) {
-    switch (kind) {
-    case scene::Trajectory::dump:
-        return "dump";
-    case scene::Trajectory::xyz:
-        return "xyz";
-    case scene::Trajectory::vtp:
-        return "vtp";
-    case scene::Trajectory::book:
-        return "book";
+std::string bookmark_in(const output::Checkpoint* checkpoint, const std::string& name) {
+    if (checkpoint == nullptr) return {};
+    const auto found = checkpoint->bookmarks.find(name);
+    return found == checkpoint->bookmarks.end() ? std::string() : found->second;
+}
+
+std::string checkpoint_name(std::int64_t step) {
+    return fmt::format("{:012}.checkpoint", step);
+}
+
+// Those of the run before, up to the one it goes on from. Later ones will be written again.
+std::vector<fs::path> earlier_checkpoints(const fs::path& folder, std::int64_t step) {
+    std::vector<fs::path> found;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+        const fs::path name = entry.path().filename();
+        if (name.extension() == ".checkpoint" && name.string() <= checkpoint_name(step))
+            found.push_back(folder / name);
     }
-    return "";
-}
-
-const std::vector<analysis::LogColumn>& log_columns() {
-    static const std::vector<analysis::LogColumn> columns = {{"time", "s"},
-                                                             {"step", "1"},
-                                                             {"grains", "1"},
-                                                             {"kinetic_energy", "J"},
-                                                             {"rotational_energy", "J"},
-                                                             {"elastic_energy", "J"},
-                                                             {"potential_energy", "J"},
-                                                             {"total_energy", "J"},
-                                                             {"momentum_x", "kg m/s"},
-                                                             {"momentum_y", "kg m/s"},
-                                                             {"contacts", "1"},
-                                                             {"wall_contacts", "1"},
-                                                             {"largest_overlap", "R_min"},
-                                                             {"largest_speed", "m/s"},
-                                                             {"removed", "1"}};
-    return columns;
-}
-
-// A scale that does not flicker: the largest value seen so far, rounded up to 1, 2 or 5 times a power of ten.
-double rounded_up(double value) {
-    if (!(value > 0)) return 1;
-    const double base = std::pow(10.0, std::floor(std::log10(value)));
-    for (const double step : {1.0, 2.0, 5.0})
-        if (value <= step * base) return step * base;
-    return 10 * base;
-}
-
-double largest_of(const analysis::Snapshot& s, scene::Colour colour) {
-    double largest = 0;
-    for (std::size_t i = 0; i < s.size(); ++i) {
-        double value = 0;
-        switch (colour) {
-        case scene::Colour::speed:
-            value = std::hypot(s.vx[i], s.vy[i]);
-            break;
-        case scene::Colour::pressure:
-            value = s.pressure[i];
-            break;
-        case scene::Colour::spin:
-            value = std::abs(s.omega[i]);
-            break;
-        case scene::Colour::radius:
-            value = s.radius[i];
-            break;
-        }
-        largest = std::max(largest, value);
-    }
-    return largest;
+    std::sort(found.begin(), found.end());
+    return found;
 }
 
 } // namespace
@@ -112,28 +73,28 @@ RunOutputs::RunOutputs(const fs::path& folder, const md::Simulation& sim, std::s
         if (resume == nullptr) folder_.discard();
         throw;
     }
+    if (resume == nullptr) return;
+    checkpoints_ = earlier_checkpoints(folder_.checkpoints(), resume->step);
+    events_seen_ = sim.events().size(); // the run before has told them
 }
 
 void RunOutputs::open_files(const output::Checkpoint* resume) {
-    const scene::Output& o = scene_.output;
-    const auto bookmark = [&](const std::string& name) {
-        return resume != nullptr && resume->bookmarks.contains(name) ? resume->bookmarks.at(name)
-                                                                     : std::string();
-    };
     write_file_atomically(folder_.path() / "scene.toml", scene::write_scene(scene_));
     write_file_atomically(folder_.path() / "plan.txt", plan_text_);
-    log_ = std::make_unique<output::LogWriter>(folder_.path() / "log.csv", log_columns(), bookmark("log"));
-    history_.columns = log_columns();
-    if (resume != nullptr) history_ = output::read_log(folder_.path() / "log.csv");
+    log_ = std::make_unique<output::LogWriter>(folder_.path() / "log.csv", log_columns(),
+                                               bookmark_in(resume, "log"));
+    pictures_ = std::make_unique<output::PictureSeries>(folder_.path() / "pictures", scene_,
+                                                        bookmark_in(resume, "pictures"));
     scene::Scene resolved = scene_;
     resolved.md.dt = dt_;
     if (trajectory_steps_ != never)
-        for (const scene::Trajectory kind : o.trajectory) {
-            const std::string name = trajectory_name(kind);
-            trajectories_.emplace_back(
-                name, output::make_trajectory_writer(kind, folder_.path(), resolved, bookmark(name)));
+        for (const scene::Trajectory kind : scene_.output.trajectory) {
+            const std::string name(scene::trajectory_choices()[static_cast<std::size_t>(kind)]);
+            trajectories_[name] =
+                output::make_trajectory_writer(kind, folder_.path(), resolved, bookmark_in(resume, name));
         }
-    if (!bookmark("pictures").empty()) pictures_ = std::stoll(bookmark("pictures"));
+    if (replay_steps_ != never)
+        replay_ = std::make_unique<output::ReplayWriter>(folder_.path(), bookmark_in(resume, "replay"));
 }
 
 std::int64_t RunOutputs::next_due(std::int64_t step) const {
@@ -151,10 +112,10 @@ void RunOutputs::write_due(const md::Simulation& sim, bool all) {
                replay = due(replay_steps_);
     if (picture || trajectory || replay) {
         const analysis::Snapshot snapshot = sim.snapshot();
-        if (picture) write_picture(snapshot);
+        if (picture) pictures_->write(snapshot);
         if (trajectory)
             for (auto& [name, writer] : trajectories_) writer->write(snapshot);
-        if (replay) replay_.add(snapshot);
+        if (replay) replay_->write(snapshot);
     }
     if (due(checkpoint_steps_) && sim.step() > 0) write_checkpoint(sim);
     for (; events_seen_ < sim.events().size(); ++events_seen_) warn(sim.events()[events_seen_]);
@@ -162,26 +123,13 @@ void RunOutputs::write_due(const md::Simulation& sim, bool all) {
 
 void RunOutputs::write_log(const md::Simulation& sim) {
     const md::Observables o = sim.observe();
-    const std::vector<std::vector<double>> row = {
-        {sim.time(), static_cast<double>(sim.step()), static_cast<double>(o.grains), o.kinetic, o.rotational,
-         o.elastic, o.potential, o.kinetic + o.rotational + o.elastic + o.potential, o.momentum_x,
-         o.momentum_y, static_cast<double>(o.contacts), static_cast<double>(o.wall_contacts),
-         o.largest_overlap, o.largest_speed, static_cast<double>(sim.removed())}};
-    log_->write(row);
-    history_.rows.push_back(row[0]);
+    log_->write(std::vector<std::vector<double>>{log_row(sim, o)});
     if (o.largest_overlap > 0.05 && !overlap_warned_) {
         overlap_warned_ = true;
         warn(fmt::format(
             "t = {:.4g} s: largest overlap {:.3g} R_min is above 0.05; the material is soft for this load",
             sim.time(), o.largest_overlap));
     }
-}
-
-void RunOutputs::write_picture(const analysis::Snapshot& snapshot) {
-    colour_max_ = std::max(colour_max_, rounded_up(largest_of(snapshot, scene_.output.colour)));
-    const output::PictureStyle style{scene_.output.colour, static_cast<int>(scene_.output.picture_width),
-                                     colour_max_};
-    output::write_picture(folder_.pictures() / fmt::format("{:06}.png", pictures_++), snapshot, style);
 }
 
 // Keeps the two newest: one of them is whole whatever happens while the other is written.
@@ -192,9 +140,10 @@ std::string RunOutputs::write_checkpoint(const md::Simulation& sim) {
     c.step = sim.step();
     c.wall_seconds = wall_before_ + clock_.seconds();
     c.bookmarks["log"] = log_->bookmark();
-    c.bookmarks["pictures"] = std::to_string(pictures_);
+    c.bookmarks["pictures"] = pictures_->bookmark();
+    if (replay_ != nullptr) c.bookmarks["replay"] = replay_->bookmark();
     for (auto& [name, writer] : trajectories_) c.bookmarks[name] = writer->bookmark();
-    const fs::path path = folder_.checkpoints() / fmt::format("{:012}.checkpoint", sim.step());
+    const fs::path path = folder_.checkpoints() / checkpoint_name(sim.step());
     output::write_checkpoint(path, c);
     if (checkpoints_.empty() || checkpoints_.back() != path) checkpoints_.push_back(path);
     while (checkpoints_.size() > 2) {
@@ -207,31 +156,35 @@ std::string RunOutputs::write_checkpoint(const md::Simulation& sim) {
 
 std::string RunOutputs::finish(const md::Simulation& sim, bool stopped, const std::string& summary,
                                double rate) {
-    const std::string checkpoint = write_checkpoint(sim);
+    std::string checkpoint = write_checkpoint(sim);
     write_file_atomically(folder_.path() / "summary.json", summary + "\n");
     if (stopped) return checkpoint;
-    if (pictures_ > 0 && scene_.output.movie) {
-        const std::string hint = output::write_movie(folder_.path());
-        if (!hint.empty()) warn("no movie: ffmpeg is not installed; with it: " + hint);
-    }
-    if (scene_.output.report) {
-        output::ReportInput input;
-        input.title = scene_.title;
-        input.description = scene_.description;
-        input.summary = {{"grains", std::to_string(sim.state().size())},
-                         {"steps", std::to_string(sim.step())},
-                         {"time", fmt::format("{:.4g} s", sim.time())},
-                         {"time step", fmt::format("{:.4g} s", sim.plan().dt)},
-                         {"instruction set", std::string(simd::isa_name(sim.plan().isa))},
-                         {"threads", std::to_string(sim.plan().threads)},
-                         {"particle-steps per second", fmt::format("{:.3g}", rate)},
-                         {"state hash", sim.state_hash().hex()}};
-        input.plan = plan_text_;
-        input.scene_text = scene::write_scene(scene_);
-        input.log = history_;
-        output::write_report(folder_.path() / "report.html", input, replay_);
-    }
+    if (pictures_->count() > 0 && scene_.output.movie) write_movie();
+    if (scene_.output.report) write_report(sim, rate);
     return checkpoint;
+}
+
+void RunOutputs::write_movie() {
+    const std::string hint = output::write_movie(folder_.path());
+    if (!hint.empty()) warn("no movie: ffmpeg is not installed or failed; the command is: " + hint);
+}
+
+void RunOutputs::write_report(const md::Simulation& sim, double rate) {
+    output::ReportInput input;
+    input.scene = scene_;
+    input.summary = {{"Grains", std::to_string(sim.state().size())},
+                     {"Simulated time", fmt::format("{:.4g} s", sim.time())},
+                     {"Steps", std::to_string(sim.step())},
+                     {"Time step", fmt::format("{:.4g} s", sim.plan().dt)},
+                     {"Instruction set", std::string(simd::isa_name(sim.plan().isa))},
+                     {"Threads", std::to_string(sim.plan().threads)},
+                     {"Particle-steps per second", fmt::format("{:.3g}", rate)},
+                     {"State hash", sim.state_hash().hex()}};
+    input.plan = plan_text_;
+    input.scene_text = scene::write_scene(scene_);
+    input.log = output::read_log(folder_.path() / "log.csv");
+    if (replay_ != nullptr) input.replay = output::read_replay(folder_.path() / "replay.bin");
+    output::write_report(folder_.path() / "report.html", input);
 }
 
 void RunOutputs::warn(const std::string& text) {

@@ -7,11 +7,13 @@
 #include "output/checkpoint.hpp"
 #include "output/folder.hpp"
 #include "output/log.hpp"
-#include "output/report.hpp"
+#include "output/picture_series.hpp"
+#include "output/replay.hpp"
 #include "output/writers.hpp"
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,7 +40,8 @@ public:
 private:
     void open_files(const output::Checkpoint* resume);
     void write_log(const md::Simulation& simulation);
-    void write_picture(const analysis::Snapshot& snapshot);
+    void write_movie();
+    void write_report(const md::Simulation& simulation, double rate);
     std::string write_checkpoint(const md::Simulation& simulation);
     void warn(const std::string& text);
 
@@ -46,16 +49,14 @@ private:
     output::RunFolder folder_;
     std::string plan_text_;
     double dt_; // s
-    std::unique_ptr<output::LogWriter> log_;
-    analysis::Log history_;
-    std::vector<std::pair<std::string, std::unique_ptr<output::TrajectoryWriter>>> trajectories_;
-    output::ReplayRecorder replay_;
     std::int64_t log_steps_, picture_steps_, trajectory_steps_, checkpoint_steps_, replay_steps_;
-    std::int64_t pictures_ = 0;
-    double colour_max_ = 0;
+    std::unique_ptr<output::LogWriter> log_;
+    std::unique_ptr<output::PictureSeries> pictures_;
+    std::map<std::string, std::unique_ptr<output::TrajectoryWriter>> trajectories_; // by name of bookmark
+    std::unique_ptr<output::ReplayWriter> replay_;                                  // null without a report
     bool overlap_warned_ = false;
     std::size_t events_seen_ = 0;
-    std::vector<std::filesystem::path> checkpoints_;
+    std::vector<std::filesystem::path> checkpoints_; // oldest first
     bool quiet_ = false;
     Stopwatch clock_;
     double wall_before_ = 0;

@@ -16,19 +16,24 @@ struct ContactForce {
 };
 
 template <class Normal, class Tangential>
-ContactForce contact_force(const laws::PairState<double>& s, const laws::PairCoefficients<double>& c) {
-    const auto f = laws::pair_force<Normal, Tangential, double>(s, c);
+ContactForce contact_force(const laws::PairState<double>& s, const laws::PairCoefficients<double>& c,
+                           const double* remembered) {
+    double memory[Tangential::memory + 1];
+    for (int m = 0; m < Tangential::memory; ++m)
+        memory[m] = remembered != nullptr ? remembered[m] : laws::no_contact;
+    const auto f = laws::pair_force<Normal, Tangential, double>(s, c, memory, 0.0);
     const double energy = Normal::energy(
         laws::NormalInput<double>{f.overlap, 0, c.elastic, c.dissipative, s.inverse_reduced_radius});
-    return {f.x, f.y, f.overlap, energy};
+    return {f.x, f.y, f.overlap, energy + Tangential::energy(c.tangential_stiffness, memory)};
 }
 
-using ContactKernel = ContactForce (*)(const laws::PairState<double>&, const laws::PairCoefficients<double>&);
+using ContactKernel = ContactForce (*)(const laws::PairState<double>&, const laws::PairCoefficients<double>&,
+                                       const double*);
 
 template <class Normal> ContactKernel with_tangential(int tangential) {
     int position = 0;
     ContactKernel kernel = nullptr;
-#define TANGENTIAL(type, choice)                                                                             \
+#define TANGENTIAL(type, choice, name)                                                                       \
     if (position++ == tangential) kernel = contact_force<Normal, laws::type>;
 #include "laws/laws.def"
     return kernel;
@@ -37,7 +42,7 @@ template <class Normal> ContactKernel with_tangential(int tangential) {
 ContactKernel contact_kernel(const Plan& plan) {
     int position = 0;
     ContactKernel kernel = nullptr;
-#define NORMAL(type, choice)                                                                                 \
+#define NORMAL(type, choice, name, key)                                                                      \
     if (position++ == plan.normal) kernel = with_tangential<laws::type>(plan.tangential);
 #include "laws/laws.def"
     return kernel;
@@ -63,7 +68,7 @@ void add_grain_energies(const scene::Scene& scene, const Plan& plan, const State
 } // namespace
 
 Observables observe(const scene::Scene& scene, const Plan& plan, const State& state, const Walls& walls,
-                    const std::vector<double>& coefficients) {
+                    const std::vector<double>& coefficients, const ContactMemories& memories) {
     Observables o;
     o.grains = static_cast<std::int64_t>(state.size());
     o.pressure.assign(state.size(), 0.0);
@@ -75,8 +80,8 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
         return state.spin() ? state.radius[i] * state.value(i, 2, 1) * rate : 0.0;
     };
     const auto coefficients_of = [&](int a, int b) -> laws::PairCoefficients<double> {
-        const double* c = coefficients.data() + (a * materials + b) * laws::pair_coefficients;
-        return {c[0], c[1], c[2], c[3]};
+        return laws::coefficients_from<double>(coefficients.data() +
+                                               (a * materials + b) * laws::pair_coefficients);
     };
     // Half the trace of -(1/V) sum l f with l from centre to contact, V = pi R^2 (8.1): R (-f.n)/(2 pi R^2).
     const auto press = [&](std::size_t i, double inward) {
@@ -94,7 +99,8 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
                                         spin(i) + spin(j),
                                         reach,
                                         state.inverse_radius[i] + state.inverse_radius[j]};
-        const ContactForce f = kernel(s, coefficients_of(state.material[i], state.material[j]));
+        const ContactForce f = kernel(s, coefficients_of(state.material[i], state.material[j]),
+                                      memories.pairs.find(state.id[i], state.id[j]));
         ++o.contacts;
         o.elastic += f.energy;
         o.largest_overlap =
@@ -114,7 +120,8 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
                                             state.radius[i] + c.radius,
                                             state.inverse_radius[i] + c.inverse_radius};
             const ContactForce f =
-                kernel(s, coefficients_of(state.material[i], walls.elements()[e].material));
+                kernel(s, coefficients_of(state.material[i], walls.elements()[e].material),
+                       memories.walls.find_wall(state.id[i], static_cast<std::int64_t>(e)));
             ++o.wall_contacts;
             o.elastic += f.energy;
             o.largest_overlap = std::max(o.largest_overlap, f.overlap / state.radius[i]);

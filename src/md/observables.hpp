@@ -21,7 +21,13 @@ struct Observables {
     std::vector<double> pressure; // per storage index: trace of the contact stress over two (8.1)
 };
 
+// What contacts remember of each other, of laws that do.
+struct ContactMemories {
+    const ContactMemory &pairs, &walls;
+};
+
 [[nodiscard]] Observables observe(const scene::Scene& scene, const Plan& plan, const State& state,
-                                  const Walls& walls, const std::vector<double>& coefficients);
+                                  const Walls& walls, const std::vector<double>& coefficients,
+                                  const ContactMemories& memories);
 
 } // namespace sandlane::md

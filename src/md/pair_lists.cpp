@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sandlane::md {
 
@@ -24,27 +25,64 @@ double nearest(double d, double half, double period) {
 
 PairLists::PairLists(const scene::Scene& scene, const Plan& plan, const Needs& needs)
     : cells_(scene, plan, needs.radius_max, false, outer_skin * needs.radius_min),
-      skin_(outer_skin * needs.radius_min), near_skin_(near_skin * needs.radius_min) {}
+      skin_(outer_skin * needs.radius_min), near_skin_(near_skin * needs.radius_min), fields_(plan.memory),
+      remembered_(plan.memory) {
+    remembered_.index();
+}
+
+void PairLists::invalidate(const State& state) {
+    if (!stale_ && fields_ > 0) remembered_ = memory(state);
+    stale_ = true;
+}
+
+void PairLists::adopt(ContactMemory memory) {
+    remembered_ = std::move(memory);
+    stale_ = true;
+}
+
+ContactMemory PairLists::memory(const State& state) const {
+    if (stale_) return remembered_;
+    ContactMemory result(fields_);
+    for (const Tile& t : tiles_)
+        for (std::size_t n = 0; n < static_cast<std::size_t>(t.near_count) && fields_ > 0; ++n)
+            if (t.memory[n] < 0.5 * laws::no_contact)
+                result.add(state.id[static_cast<std::size_t>(t.near_i[n])],
+                           state.id[static_cast<std::size_t>(t.near_j[n])], t.memory.data() + n,
+                           static_cast<std::ptrdiff_t>(t.stride()));
+    result.index();
+    return result;
+}
 
 std::size_t PairLists::bytes() const {
     std::size_t total = cells_.bytes() + built_x_.bytes() + built_y_.bytes();
     for (const Tile& t : tiles_)
         total += sizeof(std::int32_t) *
-                 (t.i.capacity() + t.j.capacity() + t.near_i.capacity() + t.near_j.capacity());
+                     (t.i.capacity() + t.j.capacity() + t.near_i.capacity() + t.near_j.capacity() +
+                      t.position.capacity() + t.last_position.capacity()) +
+                 sizeof(double) * (t.memory.capacity() + t.last_memory.capacity());
     return total;
 }
 
-simd::TileList PairLists::tile(std::size_t index, const State& state) const {
-    const Tile& t = tiles_[index];
-    return {t.near_i.data(), t.near_j.data(), t.near_count, static_cast<std::int32_t>(index * tile_size),
-            static_cast<std::int32_t>(std::min(state.size(), (index + 1) * tile_size))};
+simd::TileList PairLists::tile(std::size_t index, const State& state) {
+    Tile& t = tiles_[index];
+    return {t.near_i.data(),
+            t.near_j.data(),
+            t.near_count,
+            static_cast<std::int32_t>(index * tile_size),
+            static_cast<std::int32_t>(std::min(state.size(), (index + 1) * tile_size)),
+            t.memory.data(),
+            static_cast<std::ptrdiff_t>(t.stride())};
 }
 
 void PairLists::update(const State& state, const simd::PairView& pairs, const simd::MdKernels& kernels,
                        int threads) {
     if (!stale_ && near_budget_ >= 0) return;
-    if (stale_ || !outer_valid(state, pairs, threads)) build(state, pairs, kernels, threads);
-    refresh(pairs, kernels, threads);
+    const bool rebuild = stale_ || !outer_valid(state, pairs, threads);
+    if (rebuild) {
+        invalidate(state);
+        build(state, pairs, kernels, threads);
+    }
+    refresh(state, pairs, kernels, threads, rebuild);
 }
 
 // Two grains that were a skin apart can have met when both moved by half of it. The near list adds its own
@@ -100,21 +138,58 @@ void PairLists::build_tile(std::size_t index, const State& state, const simd::Pa
     }
     t.count = static_cast<std::int32_t>(t.i.size());
     for (std::vector<std::int32_t>* list : {&t.i, &t.j}) list->resize(list->size() + block_width, begin);
-    for (std::vector<std::int32_t>* list : {&t.near_i, &t.near_j}) list->resize(t.i.size());
+    for (std::vector<std::int32_t>* list : {&t.near_i, &t.near_j, &t.position}) list->resize(t.i.size());
+    t.memory.resize(t.i.size() * static_cast<std::size_t>(fields_));
 }
 
-void PairLists::refresh(const simd::PairView& pairs, const simd::MdKernels& kernels, int threads) {
+void PairLists::refresh(const State& state, const simd::PairView& pairs, const simd::MdKernels& kernels,
+                        int threads, bool rebuilt) {
     ++refreshes_;
     near_budget_ = 0.5 * safety * near_skin_;
     for_tiles(tiles_.size(), threads, [&](std::size_t index) {
         Tile& t = tiles_[index];
+        if (fields_ > 0 && !rebuilt) {
+            t.last_position = t.position;
+            t.last_memory = t.memory;
+            t.last_near_count = t.near_count;
+        }
         t.near_count = kernels.near_pairs(pairs, t.i.data(), t.j.data(), t.count, near_skin_, t.near_i.data(),
-                                          t.near_j.data());
+                                          t.near_j.data(), t.position.data());
         // The tile kernel loads whole blocks of existing grains.
         const auto end = static_cast<std::size_t>(t.near_count);
         std::fill_n(t.near_i.data() + end, block_width, static_cast<std::int32_t>(index * tile_size));
         std::fill_n(t.near_j.data() + end, block_width, static_cast<std::int32_t>(index * tile_size));
+        if (fields_ == 0) return;
+        std::fill(t.memory.begin(), t.memory.end(), laws::no_contact);
+        if (rebuilt)
+            recall_memory(t, state);
+        else
+            carry_memory(t);
     });
+}
+
+// From the near pairs before to those now: both ascend in their position in the outer list.
+void PairLists::carry_memory(Tile& t) const {
+    std::int32_t before = 0;
+    for (std::int32_t now = 0; now < t.near_count; ++now) {
+        const std::int32_t position = t.position[static_cast<std::size_t>(now)];
+        while (before < t.last_near_count && t.last_position[static_cast<std::size_t>(before)] < position)
+            ++before;
+        if (before == t.last_near_count) return;
+        if (t.last_position[static_cast<std::size_t>(before)] != position) continue;
+        for (std::size_t f = 0; f < static_cast<std::size_t>(fields_); ++f)
+            t.memory[f * t.stride() + static_cast<std::size_t>(now)] =
+                t.last_memory[f * t.stride() + static_cast<std::size_t>(before)];
+    }
+}
+
+void PairLists::recall_memory(Tile& t, const State& state) const {
+    for (std::size_t n = 0; n < static_cast<std::size_t>(t.near_count) && !remembered_.empty(); ++n) {
+        const double* values = remembered_.find(state.id[static_cast<std::size_t>(t.near_i[n])],
+                                                state.id[static_cast<std::size_t>(t.near_j[n])]);
+        for (std::size_t f = 0; f < static_cast<std::size_t>(fields_) && values != nullptr; ++f)
+            t.memory[f * t.stride() + n] = values[f];
+    }
 }
 
 } // namespace sandlane::md

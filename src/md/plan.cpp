@@ -2,7 +2,8 @@
 
 #include "core/error.hpp"
 #include "laws/contact.hpp"
-#include "laws/restitution.hpp"
+#include "md/law_traits.hpp"
+#include "scene/schema.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +16,6 @@ using scene::NeighbourMethod;
 using scene::Scene;
 
 namespace {
-
-double reduced_modulus(const scene::Material& m) {
-    return (1 - m.poisson * m.poisson) / m.young;
-}
 
 int order_of(scene::Integrator integrator) {
     switch (integrator) {
@@ -58,29 +55,15 @@ double stable_damping(int order) {
     return bound[order - 3];
 }
 
-struct Stiffness {
-    double frequency = 0, damping_ratio = 0, collision_time = 0, restitution = 1, overlap = 0;
-};
-
-// A contact of reduced mass m and reduced radius R at normal impact speed g.
-Stiffness contact_stiffness(const Scene& scene, const double* c, double mass, double radius, double speed) {
-    Stiffness s;
-    if (scene.md.normal == scene::NormalLaw::linear_dashpot) {
-        s.frequency = std::sqrt(c[0] / mass);
-        s.damping_ratio = c[1] / (2 * std::sqrt(c[0] * mass));
-        s.collision_time = std::numbers::pi / s.frequency;
-        s.restitution = laws::linear_dashpot_restitution(s.damping_ratio);
-        s.overlap = speed / s.frequency;
-        return s;
+// Calls body(traits) with the traits of the scene's normal law.
+template <class Body> auto with_normal_law(const Scene& scene, const Body& body) {
+    switch (scene.md.normal) {
+#define NORMAL(type, choice, name, key)                                                                      \
+    case scene::NormalLaw::choice:                                                                           \
+        return body(LawTraits<laws::type>{});
+#include "laws/laws.def"
     }
-    const double k = c[0] * std::sqrt(radius);
-    const double x = c[1] * std::pow(k / mass, 0.4) * std::pow(speed, 0.2);
-    s.overlap = std::pow(5 * mass * speed * speed / (4 * k), 0.4);
-    s.frequency = std::sqrt(1.5 * k * std::sqrt(s.overlap) / mass);
-    s.damping_ratio = c[1] * k * std::sqrt(s.overlap) / (2 * mass * s.frequency);
-    s.collision_time = 3.2180654597 * std::pow(mass / k, 0.4) * std::pow(speed, -0.2);
-    s.restitution = laws::viscoelastic_restitution(x);
-    return s;
+    return body(LawTraits<laws::Viscoelastic>{});
 }
 
 double area(const Scene& scene) {
@@ -97,27 +80,28 @@ double lattice_ratio_bound(int reach, double delta) {
 std::vector<double> pair_table(const Scene& scene) {
     const std::size_t n = scene.materials.size();
     std::vector<double> table(n * n * laws::pair_coefficients);
-    const bool linear = scene.md.normal == scene::NormalLaw::linear_dashpot;
-    for (std::size_t a = 0; a < n; ++a)
-        for (std::size_t b = 0; b < n; ++b) {
-            const scene::Material &p = scene.materials[a], &q = scene.materials[b];
-            double* c = table.data() + (a * n + b) * laws::pair_coefficients;
-            c[0] = linear ? 2 * p.stiffness * q.stiffness / (p.stiffness + q.stiffness)
-                          : (4.0 / 3.0) / (reduced_modulus(p) + reduced_modulus(q));
-            c[1] = linear ? 0.5 * (p.damping + q.damping) : 0.5 * (p.dissipation + q.dissipation);
-            c[2] = std::min(p.tangential_damping, q.tangential_damping);
-            c[3] = std::min(p.friction, q.friction);
-            for (const scene::MaterialPair& pair : scene.pairs) {
-                const bool here = (pair.first == p.name && pair.second == q.name) ||
-                                  (pair.first == q.name && pair.second == p.name);
-                if (!here) continue;
-                const double elastic = linear ? pair.stiffness : (2.0 / 3.0) * pair.young;
-                const double values[] = {elastic, linear ? pair.damping : pair.dissipation,
-                                         pair.tangential_damping, pair.friction};
-                for (int k = 0; k < laws::pair_coefficients; ++k)
-                    if (values[k] >= 0) c[k] = values[k];
+    with_normal_law(scene, [&](auto traits) {
+        for (std::size_t a = 0; a < n; ++a)
+            for (std::size_t b = 0; b < n; ++b) {
+                const scene::Material &p = scene.materials[a], &q = scene.materials[b];
+                double* c = table.data() + (a * n + b) * laws::pair_coefficients;
+                c[0] = traits.elastic(p, q);
+                c[1] = traits.dissipative(p, q);
+                c[2] = std::min(p.tangential_damping, q.tangential_damping);
+                c[3] = std::min(p.friction, q.friction);
+                c[4] = std::min(p.tangential_stiffness, q.tangential_stiffness);
+                for (const scene::MaterialPair& pair : scene.pairs) {
+                    const bool here = (pair.first == p.name && pair.second == q.name) ||
+                                      (pair.first == q.name && pair.second == p.name);
+                    if (!here) continue;
+                    const double values[] = {traits.elastic(pair), traits.dissipative(pair),
+                                             pair.tangential_damping, pair.friction,
+                                             pair.tangential_stiffness};
+                    for (int k = 0; k < laws::pair_coefficients; ++k)
+                        if (values[k] >= 0) c[k] = values[k];
+                }
             }
-        }
+    });
     return table;
 }
 
@@ -141,7 +125,8 @@ Needs analyse(const Scene& scene, const std::vector<scene::GrainState>& grains) 
     const std::vector<double> table = pair_table(scene);
     if (scene.md.tangential != scene::TangentialLaw::none)
         for (std::size_t p = 0; p < table.size(); p += laws::pair_coefficients)
-            needs.friction = needs.friction || (table[p + 2] > 0 && table[p + 3] > 0);
+            needs.friction = needs.friction || (table[p + 3] > 0 && (table[p + 2] > 0 || table[p + 4] > 0));
+    needs.memory = needs.friction && scene.md.tangential == scene::TangentialLaw::cundall_strack;
     needs.walls = !scene.walls.empty();
     for (const scene::Wall& w : scene.walls) needs.moving_walls = needs.moving_walls || !w.motion.empty();
     needs.gravity = norm(scene.domain.gravity) > 0;
@@ -164,20 +149,32 @@ Derived derive(const Scene& scene, const Needs& needs) {
     // deepest.
     const double light = 0.5 * needs.mass_min, heavy = needs.mass_max;
     const double inertia = scene.md.inertia == scene::Inertia::disc ? 0.5 : 0.4;
+    const auto scale = [&](const double* c, double mass, double radius) {
+        return with_normal_law(
+            scene, [&](auto traits) { return traits.scale(c[0], c[1], mass, radius, scene.md.max_speed); });
+    };
     for (std::size_t p = 0; p < table.size(); p += laws::pair_coefficients) {
         const double* c = table.data() + p;
-        const Stiffness fast = contact_stiffness(scene, c, light, 0.5 * needs.radius_min, scene.md.max_speed);
-        const Stiffness deep = contact_stiffness(scene, c, heavy, needs.radius_max, scene.md.max_speed);
+        const ContactScale fast = scale(c, light, 0.5 * needs.radius_min);
+        const ContactScale deep = scale(c, heavy, needs.radius_max);
         d.collision_time = std::min(d.collision_time, fast.collision_time);
         d.critical_dt = std::min(d.critical_dt, stable_phase(order, fast.damping_ratio) / fast.frequency);
         d.recommended_dt = std::min(d.recommended_dt, fast.collision_time / 50);
         d.restitution_min = std::min({d.restitution_min, fast.restitution, deep.restitution});
         d.restitution_max = std::max({d.restitution_max, fast.restitution, deep.restitution});
         d.overlap_ratio = std::max(d.overlap_ratio, deep.overlap / needs.radius_min);
-        if (needs.friction && c[2] > 0 && c[3] > 0) { // 1/m_t of two light grains (1.10)
-            const double tangential_mass = 1 / (2 / needs.mass_min * (1 + 1 / inertia));
+        if (!needs.friction || c[3] == 0) continue;
+        const double tangential_mass =
+            1 / (2 / needs.mass_min * (1 + 1 / inertia)); // of two light grains (1.10)
+        if (c[2] > 0) {
             d.critical_dt = std::min(d.critical_dt, stable_damping(order) * tangential_mass / c[2]);
             d.recommended_dt = std::min(d.recommended_dt, 0.15 * tangential_mass / c[2]);
+        }
+        if (needs.memory) { // the spring swings at its own frequency
+            const double frequency = std::sqrt(c[4] / tangential_mass);
+            const double ratio = c[2] / (2 * std::sqrt(c[4] * tangential_mass));
+            d.critical_dt = std::min(d.critical_dt, stable_phase(order, ratio) / frequency);
+            d.recommended_dt = std::min(d.recommended_dt, std::numbers::pi / frequency / 50);
         }
     }
     d.recommended_dt = std::min(d.recommended_dt, 0.25 * d.critical_dt);
@@ -231,35 +228,36 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
              "reach {}). Use md.neighbours = \"auto\" or \"link-cells\".",
              ratio, scene.md.delta, lattice_ratio_bound(4, scene.md.delta), plan.columns, plan.rows,
              plan.reach);
+    if (plan.memory > 0) {
+        if (wanted != NeighbourMethod::automatic && wanted != NeighbourMethod::verlet)
+            fail(Exit::invalid_input,
+                 "md.neighbours = \"{}\": the contacts of md.tangential = \"{}\" remember, which only lists "
+                 "of "
+                 "pairs can hold; use \"auto\" or \"verlet\"",
+                 scene::neighbour_choices()[static_cast<std::size_t>(wanted)],
+                 scene::tangential_choices()[static_cast<std::size_t>(scene.md.tangential)]);
+        plan.neighbours = NeighbourMethod::verlet;
+        plan.chosen.push_back("neighbours: Verlet lists, contacts remember their tangential spring");
+        return;
+    }
     plan.neighbours = wanted;
     if (wanted != NeighbourMethod::automatic) {
         if (asks && needs.radius_max == 0) plan.neighbours = NeighbourMethod::brute_force;
-        plan.chosen.push_back("neighbours: as asked for in md.neighbours");
+        plan.chosen.push_back(
+            asks ? fmt::format("neighbours: as asked for in md.neighbours, {0}x{0} mask; radius "
+                               "ratio {1:.4g} <= {2:.4g}; link cells take over if two centres "
+                               "meet in a site",
+                               2 * plan.reach + 1, ratio, lattice_ratio_bound(plan.reach, scene.md.delta))
+                 : "neighbours: as asked for in md.neighbours");
         return;
     }
-    const double n = static_cast<double>(needs.grains + needs.poured);
-    const double sites = static_cast<double>(plan.columns) * plan.rows;
-    if (n <= 32) {
-        plan.neighbours = NeighbourMethod::brute_force;
-        plan.chosen.push_back("neighbours: brute force, 32 grains or fewer");
-    } else if (!fits) {
-        plan.neighbours = NeighbourMethod::link_cells;
-        plan.chosen.push_back(fmt::format("neighbours: link cells, radius ratio {:.3g} or a small period "
-                                          "exceeds the lattice (bound {:.3g})",
-                                          ratio, lattice_ratio_bound(4, scene.md.delta)));
-    } else if (plan.reach > 3 || sites > 64 * n) {
-        plan.neighbours = NeighbourMethod::link_cells;
-        plan.chosen.push_back(
-            fmt::format("neighbours: link cells, the lattice would have {:.3g} sites per grain and reach {}",
-                        sites / n, plan.reach));
-    } else {
-        plan.neighbours = NeighbourMethod::lattice_half;
-        plan.may_switch = true;
-        plan.chosen.push_back(fmt::format("neighbours: lattice, half {0}x{0} mask; radius ratio {1:.4g} <= "
-                                          "{2:.4g}; link cells take over if two centres meet in a site",
-                                          2 * plan.reach + 1, ratio,
-                                          lattice_ratio_bound(plan.reach, scene.md.delta)));
-    }
+    // A function of the scene alone. Lists are measured to be the fastest from a few grains on, at any
+    // density; `tools/bench kernels` shows it.
+    const std::size_t few = 32;
+    const bool small = needs.grains + needs.poured <= few;
+    plan.neighbours = small ? NeighbourMethod::brute_force : NeighbourMethod::verlet;
+    plan.chosen.push_back(small ? fmt::format("neighbours: brute force, {} grains or fewer", few)
+                                : "neighbours: Verlet lists, the fastest for more than a few grains");
 }
 
 void note_skipped(const Scene& scene, const Needs& needs, Plan& plan) {
@@ -307,6 +305,7 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     plan.normal = static_cast<int>(scene.md.normal);
     plan.tangential = needs.friction ? static_cast<int>(scene.md.tangential) : 0;
     plan.spin = needs.friction || needs.spinning || scene.domain.gravity.z != 0;
+    plan.memory = needs.memory ? laws::CundallStrack::memory : 0;
     plan.many_materials = needs.many_materials;
     plan.many_radii = needs.many_radii;
     plan.walls = needs.walls;

@@ -19,6 +19,7 @@ struct Needs {
     double radius_min = 0, radius_max = 0; // m
     double mass_min = 0, mass_max = 0;     // kg
     bool many_radii = false, many_materials = false, friction = false;
+    bool memory = false; // contacts remember
     bool walls = false, moving_walls = false, gravity = false, spinning = false;
     double packing_fraction = 0; // grain area over domain area
 };
@@ -36,9 +37,8 @@ struct Plan {
     simd::Isa isa = simd::Isa::scalar;
     int threads = 1;
     scene::NeighbourMethod neighbours = scene::NeighbourMethod::link_cells; // never automatic
-    bool may_switch =
-        false; // neighbours = "auto": link cells take over when the lattice's precondition fails
     int order = 5;
+    int memory = 0; // numbers that a contact remembers
     bool spin = false, many_materials = false, many_radii = false, walls = false;
     int normal = 0, tangential = 0; // positions in laws.def
     double inertia_factor = 0.5;    // J = c m R^2

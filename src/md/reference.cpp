@@ -43,7 +43,8 @@ double pair_forces(const PairView& view, const std::int32_t* first, const std::i
                                             b.spin + a.spin,
                                             b.radius + a.radius,
                                             b.inverse_radius + a.inverse_radius};
-        const auto f = laws::pair_force<Normal, Tangential, double>(state, {c[0], c[1], c[2], c[3]});
+        const auto f =
+            laws::pair_force<Normal, Tangential, double>(state, laws::coefficients_from<double>(c));
         if (f.overlap > largest) largest = f.overlap;
         double* on_first = view.force + std::ptrdiff_t{first[n]} * force_fields;
         double* on_second = view.force + std::ptrdiff_t{second[n]} * force_fields;
@@ -208,7 +209,8 @@ std::int32_t cell_candidates(const CellView& cells, const PairView& view, std::i
 }
 
 std::int32_t near_pairs(const PairView& view, const std::int32_t* i, const std::int32_t* j,
-                        std::int32_t count, double skin, std::int32_t* near_i, std::int32_t* near_j) {
+                        std::int32_t count, double skin, std::int32_t* near_i, std::int32_t* near_j,
+                        std::int32_t* position) {
     std::int32_t found = 0;
     for (std::int32_t n = 0; n < count; ++n) {
         const Particle a = particle(view, i[n]), b = particle(view, j[n]);
@@ -216,6 +218,7 @@ std::int32_t near_pairs(const PairView& view, const std::int32_t* i, const std::
         const double dy = nearest_image(b.y - a.y, view.half_y, view.period_y);
         const double reach = b.radius + a.radius + skin;
         if (!(dx * dx + dy * dy < reach * reach)) continue;
+        position[found] = n;
         near_i[found] = i[n];
         near_j[found++] = j[n];
     }
@@ -230,13 +233,21 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
         const double dx = nearest_image(b.x - a.x, view.half_x, view.period_x);
         const double dy = nearest_image(b.y - a.y, view.half_y, view.period_y);
         const double sum = b.radius + a.radius;
-        if (!(dx * dx + dy * dy < sum * sum)) continue;
+        constexpr int memory = laws::memory_of<Tangential>;
+        double held[memory + 1];
+        for (int m = 0; m < memory; ++m) held[m] = list.memory[m * list.stride + n];
+        if (!(dx * dx + dy * dy < sum * sum)) {
+            for (int m = 0; m < memory; ++m) list.memory[m * list.stride + n] = laws::no_contact;
+            continue;
+        }
         std::ptrdiff_t pair = 0;
         if (many_materials) pair = std::ptrdiff_t{view.material[i]} * view.materials + view.material[j];
         const double* c = view.coefficients + pair * laws::pair_coefficients;
         const laws::PairState<double> state{
             dx, dy, b.vx - a.vx, b.vy - a.vy, b.spin + a.spin, sum, b.inverse_radius + a.inverse_radius};
-        const auto f = laws::pair_force<Normal, Tangential, double>(state, {c[0], c[1], c[2], c[3]});
+        const auto f = laws::pair_force<Normal, Tangential, double>(state, laws::coefficients_from<double>(c),
+                                                                    held, view.dt);
+        for (int m = 0; m < memory; ++m) list.memory[m * list.stride + n] = held[m];
         if (f.overlap > largest) largest = f.overlap;
         double* on_i = force + std::ptrdiff_t{i - list.begin} * force_fields;
         on_i[0] += f.x;
@@ -326,22 +337,29 @@ template <int order, bool spin> void fill_motion(MdKernels& t) {
     t.advance[order - 3][spin] = gear_step<order, spin, true, true>;
 }
 
-template <class Normal> void fill_pairs(PairKernel (&t)[2][2], TileKernel (&tile)[2][2]) {
-    tile[0][0] = tile_forces<Normal, laws::Frictionless, false>;
-    tile[0][1] = tile_forces<Normal, laws::Frictionless, true>;
-    tile[1][0] = tile_forces<Normal, laws::HaffWerner, false>;
-    tile[1][1] = tile_forces<Normal, laws::HaffWerner, true>;
-    t[0][0] = pair_forces<Normal, laws::Frictionless, false>;
-    t[0][1] = pair_forces<Normal, laws::Frictionless, true>;
-    t[1][0] = pair_forces<Normal, laws::HaffWerner, false>;
-    t[1][1] = pair_forces<Normal, laws::HaffWerner, true>;
+template <class Normal, class Tangential> void fill_law(PairKernel (&pair)[2], TileKernel (&tile)[2]) {
+    if constexpr (Tangential::memory == 0) {
+        pair[0] = pair_forces<Normal, Tangential, false>;
+        pair[1] = pair_forces<Normal, Tangential, true>;
+    }
+    tile[0] = tile_forces<Normal, Tangential, false>;
+    tile[1] = tile_forces<Normal, Tangential, true>;
+}
+
+template <class Normal>
+void fill_laws(PairKernel (&pair)[laws::tangential_laws][2], TileKernel (&tile)[laws::tangential_laws][2]) {
+    int law = 0;
+#define TANGENTIAL(type, choice, name)                                                                       \
+    fill_law<Normal, laws::type>(pair[law], tile[law]);                                                      \
+    ++law;
+#include "laws/laws.def"
 }
 
 MdKernels make_table() {
     MdKernels t{};
     int law = 0;
-#define NORMAL(type, choice)                                                                                 \
-    fill_pairs<laws::type>(t.pair[law], t.tile[law]);                                                        \
+#define NORMAL(type, choice, name, key)                                                                      \
+    fill_laws<laws::type>(t.pair[law], t.tile[law]);                                                         \
     ++law;
 #include "laws/laws.def"
     t.lattice_full[0] = t.lattice_full[1] = lattice_full;

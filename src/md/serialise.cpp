@@ -49,7 +49,6 @@ std::string Simulation::serialise() const {
     w.put(step_);
     w.put(plan_.dt);
     w.put(static_cast<std::int32_t>(plan_.neighbours));
-    w.put(static_cast<std::int32_t>(plan_.may_switch ? 1 : 0));
     w.put(removed_);
     w.put(delayed_);
     w.put(static_cast<std::int32_t>(state_.order));
@@ -63,6 +62,10 @@ std::string Simulation::serialise() const {
     }
     w.put(static_cast<std::uint64_t>(events_.size()));
     for (const std::string& event : events_) w.put_text(event);
+    if (plan_.memory > 0) {
+        lists_.memory(state_).write(w);
+        walls_.memory(state_).write(w);
+    }
     return w.bytes();
 }
 
@@ -73,7 +76,6 @@ void Simulation::restore(const std::string& bytes) {
     if (step_ < 0 || step_ > std::int64_t{1} << 53) damaged();
     if (r.get<double>() != plan_.dt) damaged();
     const auto method = static_cast<scene::NeighbourMethod>(r.get<std::int32_t>());
-    const bool may_switch = r.get<std::int32_t>() != 0;
     removed_ = r.get<std::int64_t>();
     delayed_ = r.get<std::int64_t>();
     if (r.get<std::int32_t>() != state_.order || r.get<std::int32_t>() != state_.dofs) damaged();
@@ -95,15 +97,16 @@ void Simulation::restore(const std::string& bytes) {
     events_.clear();
     const auto events = r.get<std::uint64_t>();
     for (std::uint64_t n = 0; n < events; ++n) events_.push_back(r.get_text());
+    lists_.adopt(plan_.memory > 0 ? ContactMemory::read(r, plan_.memory) : ContactMemory());
+    walls_.adopt(plan_.memory > 0 ? ContactMemory::read(r, plan_.memory) : ContactMemory());
     if (!r.at_end()) damaged();
-    if (method != plan_.neighbours) use_link_cells();
+    const bool on_lattice = plan_.neighbours == scene::NeighbourMethod::lattice ||
+                            plan_.neighbours == scene::NeighbourMethod::lattice_half;
+    if (on_lattice && method == scene::NeighbourMethod::link_cells) use_link_cells();
     if (method != plan_.neighbours) damaged();
-    plan_.may_switch = may_switch;
     force_step_ = step_ + 1;
     sorted_ = true;
     state_.refresh_records(plan_.dt);
-    walls_.invalidate();
-    lists_.invalidate();
     if (lattice_.rows() > 0) lattice_.clear(state_); // the next prediction puts all grains on it
 }
 

@@ -254,16 +254,11 @@ void Simulation::pair_forces() {
     if (occupied != static_cast<std::int64_t>(state_.size())) {
         const Lattice::Clash clash = lattice_.find_clash(state_);
         const auto a = static_cast<std::size_t>(clash.first), b = static_cast<std::size_t>(clash.second);
-        const std::string what = fmt::format("DELTA_EXCEEDED: grains {} and {} share a lattice site at step "
-                                             "{}: their overlap exceeds delta = {} of R_min",
-                                             state_.id[a], state_.id[b], step_, scene_.md.delta);
-        if (!plan_.may_switch)
-            fail(
-                Exit::unstable,
-                "{}. Use md.neighbours = \"auto\", a larger md.delta, a stiffer material or a smaller md.dt.",
-                what);
         use_link_cells();
-        events_.push_back(what + "; link cells from here on");
+        events_.push_back(
+            fmt::format("DELTA_EXCEEDED: grains {} and {} share a lattice site at step {}: their "
+                        "overlap exceeds delta = {} of R_min; link cells from here on",
+                        state_.id[a], state_.id[b], step_, scene_.md.delta));
         state_.force.fill(0.0);
         return pair_forces();
     }
@@ -288,7 +283,11 @@ WallInput Simulation::wall_input(double* force, std::size_t first) const {
             coefficients_.data(),
             static_cast<int>(scene_.materials.size()),
             force,
-            first};
+            first,
+            nullptr,
+            nullptr,
+            0,
+            plan_.dt};
 }
 
 void Simulation::check_walls() const {
@@ -342,7 +341,8 @@ simd::PairView Simulation::pair_view() {
             px ? 0.5 * size.x : infinity,
             py ? 0.5 * size.y : infinity,
             coefficients_.data(),
-            static_cast<std::int32_t>(scene_.materials.size())};
+            static_cast<std::int32_t>(scene_.materials.size()),
+            plan_.dt};
 }
 
 // ---- between steps
@@ -364,9 +364,9 @@ void Simulation::sort_by_place() {
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
+    walls_.invalidate(state_);
+    lists_.invalidate(state_);
     state_.reorder(order);
-    walls_.invalidate();
-    lists_.invalidate();
     if (is_lattice(plan_.neighbours)) lattice_.clear(state_);
     state_.refresh_records(plan_.dt);
 }
@@ -439,15 +439,14 @@ void Simulation::handle_outside() {
                  step_, time(), state_.id[i], r[0], r[1]);
         ++removed_;
     }
+    walls_.invalidate(state_);
+    lists_.invalidate(state_);
     state_.reorder(kept);
-    walls_.invalidate();
-    lists_.invalidate();
     bin();
 }
 
 void Simulation::use_link_cells() {
     plan_.neighbours = NeighbourMethod::link_cells;
-    plan_.may_switch = false;
     prepare_method();
 }
 
@@ -483,19 +482,20 @@ void Simulation::fail_overlap() const {
 Observables Simulation::observe() const {
     Walls now = walls_;
     now.move_to(time());
-    return md::observe(scene_, plan_, state_, now, coefficients_);
+    const ContactMemory pairs = lists_.memory(state_), walls = walls_.memory(state_);
+    return md::observe(scene_, plan_, state_, now, coefficients_, {pairs, walls});
 }
 
 std::vector<double> Simulation::forces(simd::Isa isa, NeighbourMethod method) const {
     Simulation other(*this);
     other.plan_.isa = isa;
     other.plan_.neighbours = method;
-    other.plan_.may_switch = false;
     other.kernels_ = &simd::md_kernels(isa);
     other.prepare_method();
+    other.lists_.adopt(lists_.memory(state_));
+    other.walls_.adopt(walls_.memory(state_));
     other.state_.resize_records();
     other.state_.refresh_records(plan_.dt);
-    other.walls_.invalidate();
     other.bin();
     other.force_step_ = step_;
     other.compute_forces();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sandlane::md {
 
@@ -17,7 +18,12 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
         const double* r = input.records + i * simd::record_fields;
         const WallContact c = walls.contact(n->element, {r[0], r[1], 0});
         const double reach = r[5] + c.radius;
-        if (!c.valid || c.distance >= reach) continue;
+        constexpr int memory = laws::memory_of<Tangential>;
+        double* const remembered = memory > 0 ? input.memory + (n - input.near) : nullptr;
+        if (!c.valid || c.distance >= reach) {
+            for (int m = 0; m < memory; ++m) remembered[m * input.stride] = laws::no_contact;
+            continue;
+        }
         const WallElement& element = walls.elements()[n->element];
         const double* k = input.coefficients +
                           (input.material[i] * input.materials + element.material) * laws::pair_coefficients;
@@ -28,7 +34,11 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
                                            r[4] + c.spin,
                                            reach,
                                            r[6] + c.inverse_radius};
-        const auto f = laws::pair_force<Normal, Tangential, double>(pair, {k[0], k[1], k[2], k[3]});
+        double held[memory + 1];
+        for (int m = 0; m < memory; ++m) held[m] = remembered[m * input.stride];
+        const auto f = laws::pair_force<Normal, Tangential, double>(pair, laws::coefficients_from<double>(k),
+                                                                    held, input.dt);
+        for (int m = 0; m < memory; ++m) remembered[m * input.stride] = held[m];
         double* force = input.force + (i - input.first) * simd::force_fields;
         force[0] += f.x;
         force[1] += f.y;
@@ -42,7 +52,7 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
 template <class Normal> WallKernel with_tangential(int tangential) {
     int position = 0;
     WallKernel kernel = nullptr;
-#define TANGENTIAL(type, choice)                                                                             \
+#define TANGENTIAL(type, choice, name)                                                                       \
     if (position++ == tangential) kernel = wall_forces<Normal, laws::type>;
 #include "laws/laws.def"
     return kernel;
@@ -53,7 +63,7 @@ template <class Normal> WallKernel with_tangential(int tangential) {
 WallKernel wall_kernel(int normal, int tangential) {
     int position = 0;
     WallKernel kernel = nullptr;
-#define NORMAL(type, choice)                                                                                 \
+#define NORMAL(type, choice, name, key)                                                                      \
     if (position++ == normal) kernel = with_tangential<laws::type>(tangential);
 #include "laws/laws.def"
     return kernel;
@@ -138,8 +148,31 @@ double surface_distance(const WallElement& e, Vec p) {
 
 } // namespace
 
+void Walls::invalidate(const State& state) {
+    if (!stale_ && fields_ > 0) remembered_ = memory(state);
+    stale_ = true;
+}
+
+void Walls::adopt(ContactMemory memory) {
+    remembered_ = std::move(memory);
+    stale_ = true;
+}
+
+ContactMemory Walls::memory(const State& state) const {
+    if (stale_) return remembered_;
+    ContactMemory result(fields_);
+    for (std::size_t n = 0; n < near_.size() && fields_ > 0; ++n)
+        if (near_memory_[n] < 0.5 * laws::no_contact)
+            result.add_wall(state.id[near_[n].grain], near_[n].element, near_memory_.data() + n,
+                            static_cast<std::ptrdiff_t>(near_.size()));
+    result.index();
+    return result;
+}
+
 void Walls::update(const State& state, const double* records) {
-    if (budget_ < 0) rebuild(state, records);
+    if (!stale_ && budget_ >= 0) return;
+    invalidate(state);
+    rebuild(state, records);
 }
 
 void Walls::rebuild(const State& state, const double* records) {
@@ -155,10 +188,19 @@ void Walls::rebuild(const State& state, const double* records) {
     }
     while (tile_begin_.size() <= state.tiles()) tile_begin_.push_back(near_.size());
     budget_ = 0.8 * skin_; // the rest covers what the speed bound of a step misses
+    stale_ = false;
+    const auto fields = static_cast<std::size_t>(fields_);
+    near_memory_.assign(near_.size() * fields, laws::no_contact);
+    for (std::size_t n = 0; n < near_.size() && !remembered_.empty(); ++n)
+        if (const double* values = remembered_.find_wall(state.id[near_[n].grain], near_[n].element))
+            for (std::size_t f = 0; f < fields; ++f) near_memory_[f * near_.size() + n] = values[f];
 }
 
-WallResult Walls::add_forces(const WallInput& input, std::size_t tile, std::size_t grains, bool list) const {
-    if (list) {
+WallResult Walls::add_forces(WallInput input, std::size_t tile, std::size_t grains, bool list) {
+    if (list || fields_ > 0) { // memory lies beside the list
+        input.near = near_.data();
+        input.memory = near_memory_.data();
+        input.stride = static_cast<std::ptrdiff_t>(near_.size());
         const NearWall* all = near_.data();
         return kernel_(*this, input, all + tile_begin_[tile], all + tile_begin_[tile + 1]);
     }

@@ -84,8 +84,9 @@ WallContact disc_contact(const WallElement& e, Vec p) {
 
 Walls::Walls(const scene::Scene& scene, const Plan& plan, const Needs& needs)
     : motions_(scene.motions), rigid_(scene.motions.size()),
-      kernel_(wall_kernel(plan.normal, plan.tangential)), lower_(plan.lower), upper_(plan.upper),
-      skin_(0.5 * needs.radius_min), radius_max_(needs.radius_max) {
+      kernel_(wall_kernel(plan.normal, plan.tangential)), remembered_(plan.memory), fields_(plan.memory),
+      lower_(plan.lower), upper_(plan.upper), skin_(0.5 * needs.radius_min), radius_max_(needs.radius_max) {
+    remembered_.index();
     for (std::size_t w = 0; w < scene.walls.size(); ++w) add_wall(scene, w);
     elements_ = reference_;
     for (const WallElement& e : reference_) {

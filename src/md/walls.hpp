@@ -4,6 +4,7 @@
 
 #include "analysis/snapshot.hpp"
 #include "laws/contact.hpp"
+#include "md/contact_memory.hpp"
 #include "md/plan.hpp"
 #include "md/state.hpp"
 #include "motion/prescribed.hpp"
@@ -57,6 +58,12 @@ struct WallInput {
     int materials;
     double* force;
     std::size_t first;
+    // Of laws that remember, beside the list of candidates: number f of candidate n at memory[f * stride +
+    // n].
+    const NearWall* near = nullptr;
+    double* memory = nullptr;
+    std::ptrdiff_t stride = 0;
+    double dt = 0;
 };
 // Adds the forces of a range of candidates; compiled per law (wall_forces.cpp).
 using WallKernel = WallResult (*)(const Walls&, const WallInput&, const NearWall* begin, const NearWall* end);
@@ -75,13 +82,15 @@ public:
 
     // The grains moved by at most `distance` since the last call.
     void account(double distance) { budget_ -= distance; }
-    void invalidate() { budget_ = -1; }
+    // Before the storage order changes.
+    void invalidate(const State& state);
+    [[nodiscard]] ContactMemory memory(const State& state) const;
+    void adopt(ContactMemory memory);
     [[nodiscard]] double fastest() const { return fastest_; }
     // Makes the candidate list if something may have closed its skin since the last time.
     void update(const State& state, const double* records);
     // Adds the wall forces on the grains of one tile; `list` = false looks at every element (reference).
-    [[nodiscard]] WallResult add_forces(const WallInput& input, std::size_t tile, std::size_t grains,
-                                        bool list) const;
+    [[nodiscard]] WallResult add_forces(WallInput input, std::size_t tile, std::size_t grains, bool list);
     [[nodiscard]] std::size_t list_size() const { return near_.size(); }
 
     [[nodiscard]] std::vector<analysis::WallShape> shapes(double time) const;
@@ -104,7 +113,11 @@ private:
     std::vector<motion::RigidState> rigid_; // per motion, at the current time
     std::vector<NearWall> near_;            // ordered by grain, then element
     std::vector<std::size_t> tile_begin_;   // first list entry of each tile of grains
+    std::vector<double> near_memory_;       // [field][list entry]
     WallKernel kernel_ = nullptr;
+    ContactMemory remembered_; // while there is no list
+    int fields_ = 0;           // numbers that a contact remembers
+    bool stale_ = true;
     Vec lower_, upper_;
     double skin_ = 0, budget_ = -1, fastest_ = 0, radius_max_ = 0;
 };

@@ -11,7 +11,7 @@ namespace sandlane::output {
 namespace {
 
 unsigned char byte(float value) {
-    return static_cast<unsigned char>(std::clamp(value, 0.0F, 1.0F) * 255 + 0.5F);
+    return static_cast<unsigned char>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255));
 }
 
 // Share of a pixel inside an edge whose signed distance from the pixel's centre is `inside`.

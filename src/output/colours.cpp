@@ -59,12 +59,12 @@ const std::array<Rgb, 256>& colour_map() {
     return map;
 }
 
-Quantity quantity(scene::Colour colour) {
+Quantity quantity(scene::Colour colour, scene::Body body) {
     switch (colour) {
     case scene::Colour::speed:
         return {"speed", "m/s"};
     case scene::Colour::pressure:
-        return {"pressure", "Pa"};
+        return {"pressure", body == scene::Body::disc ? "N/m" : "Pa"};
     case scene::Colour::spin:
         return {"spin", "rad/s"};
     case scene::Colour::radius:
@@ -92,6 +92,13 @@ std::vector<double> colour_values(const analysis::Snapshot& s, scene::Colour col
         }
     }
     return values;
+}
+
+double largest_finite(const std::vector<double>& values) {
+    double largest = 0;
+    for (const double value : values)
+        if (std::isfinite(value)) largest = std::max(largest, value);
+    return largest;
 }
 
 double round_up(double value) {

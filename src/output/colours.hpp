@@ -6,6 +6,7 @@
 #include "scene/scene.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -20,17 +21,20 @@ struct Rgb {
 [[nodiscard]] const std::array<Rgb, 256>& colour_map();
 [[nodiscard]] inline Rgb map_colour(double unit) {
     const double clamped = unit > 0 ? (unit < 1 ? unit : 1) : 0;
-    return colour_map()[static_cast<std::size_t>(clamped * 255 + 0.5)];
+    return colour_map()[static_cast<std::size_t>(std::lround(clamped * 255))];
 }
 
 struct Quantity {
     std::string_view name, unit;
 };
-[[nodiscard]] Quantity quantity(scene::Colour colour);
+[[nodiscard]] Quantity quantity(scene::Colour colour, scene::Body body);
 
 // One value per grain, never negative: speed, contact pressure (tension counts as 0), size of the spin,
 // radius.
 [[nodiscard]] std::vector<double> colour_values(const analysis::Snapshot& snapshot, scene::Colour colour);
+
+// 0 if no value is finite and positive.
+[[nodiscard]] double largest_finite(const std::vector<double>& values);
 
 // The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten that is not below `value` (> 0).
 [[nodiscard]] double round_up(double value);

@@ -119,9 +119,9 @@ void RunFolder::lock(Start start) {
     fail(Exit::io, "{}: cannot write: {}", file.string(), std::strerror(cause));
 }
 
-fs::path RunFolder::subfolder(const char* name) const {
-    make_folder(path_ / name);
-    return path_ / name;
+fs::path RunFolder::checkpoints() const {
+    make_folder(path_ / "checkpoints");
+    return path_ / "checkpoints";
 }
 
 } // namespace sandlane::output

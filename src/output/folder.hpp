@@ -22,13 +22,9 @@ public:
     void discard() noexcept;
 
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-    // Subfolders, created on first use.
-    [[nodiscard]] std::filesystem::path pictures() const { return subfolder("pictures"); }
-    [[nodiscard]] std::filesystem::path frames() const { return subfolder("frames"); }
-    [[nodiscard]] std::filesystem::path checkpoints() const { return subfolder("checkpoints"); }
+    [[nodiscard]] std::filesystem::path checkpoints() const; // created on first use
 
 private:
-    [[nodiscard]] std::filesystem::path subfolder(const char* name) const;
     void lock(Start start);
 
     void remove_empty() const noexcept;

@@ -57,11 +57,8 @@ struct ColourScale {
 
 ColourScale make_scale(const std::vector<double>& values, const PictureStyle& style) {
     ColourScale scale;
-    double largest = 0, smallest = values.empty() ? 0 : values.front();
-    for (const double value : values) {
-        largest = std::max(largest, value);
-        smallest = std::min(smallest, value);
-    }
+    const double largest = largest_finite(values);
+    const double smallest = values.empty() ? 0 : *std::min_element(values.begin(), values.end());
     scale.high = style.scale_max > 0 ? style.scale_max : largest > 0 ? round_up(largest) : 1;
     const bool from_smallest = style.colour == scene::Colour::radius && smallest < 0.999 * largest;
     if (from_smallest && style.scale_max <= 0) scale.high = largest;
@@ -145,7 +142,7 @@ void draw_scale_bar(Canvas& canvas, const View& v, double baseline) {
 
 void draw_colour_bar(Canvas& canvas, const View& v, const ColourScale& scale, const PictureStyle& style,
                      double baseline) {
-    const Quantity shown = quantity(style.colour);
+    const Quantity shown = quantity(style.colour, style.body);
     const double x1 = v.width - 17 * v.unit, x0 = x1 - 0.30 * v.width;
     const double top = baseline - 27 * v.unit, bottom = top + 10 * v.unit;
     const int columns = static_cast<int>(std::ceil(x1 - x0));
@@ -153,9 +150,7 @@ void draw_colour_bar(Canvas& canvas, const View& v, const ColourScale& scale, co
         canvas.rectangle(x0 + k, top, std::min(x0 + k + 1, x1), bottom, map_colour((k + 0.5) / columns));
     const bool millimetres = style.colour == scene::Colour::radius && scale.high < 0.1;
     const double factor = millimetres ? 1000 : 1;
-    const std::string unit = millimetres                               ? "mm"
-                             : style.colour == scene::Colour::pressure ? style.pressure_unit
-                                                                       : std::string(shown.unit);
+    const std::string_view unit = millimetres ? "mm" : shown.unit;
     const double size = 10 * v.unit;
     canvas.text(x0, baseline, size, fmt::format("{:.3g}", scale.low * factor), ink);
     canvas.text((x0 + x1) / 2, baseline, size, fmt::format("{} ({})", shown.name, unit), ink,

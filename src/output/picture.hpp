@@ -13,7 +13,7 @@ struct PictureStyle {
     scene::Colour colour = scene::Colour::speed;
     int width = 800;      // pixels; the height follows from the domain
     double scale_max = 0; // upper end of the colour scale; 0: largest value of the snapshot, rounded up
-    std::string pressure_unit = "Pa"; // "N/m" for body = disc
+    scene::Body body = scene::Body::sphere; // decides the unit of a pressure
 };
 
 void write_picture(const std::filesystem::path& path, const analysis::Snapshot& snapshot,

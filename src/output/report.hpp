@@ -2,6 +2,8 @@
 #pragma once
 
 #include "analysis/snapshot.hpp"
+#include "output/replay.hpp"
+#include "scene/scene.hpp"
 
 #include <filesystem>
 #include <string>
@@ -11,26 +13,16 @@
 namespace sandlane::output {
 
 struct ReportInput {
-    std::string title, description;
+    scene::Scene scene;                                       // title, domain, colour and body are shown
     std::vector<std::pair<std::string, std::string>> summary; // label, value
     std::string plan;                                         // the text of `sandlane check`
     std::string scene_text;                                   // the effective scene
     analysis::Log log;
+    std::vector<ReplayFrame> replay;
 };
 
-// Collects frames for the replay while the run goes on, thinned so that the page stays below about 5 MB.
-class ReplayRecorder {
-public:
-    void add(const analysis::Snapshot& snapshot);
-    [[nodiscard]] const std::vector<analysis::Snapshot>& frames() const { return frames_; }
-    [[nodiscard]] std::int64_t stride() const { return stride_; } // every stride-th snapshot was kept
-
-private:
-    std::vector<analysis::Snapshot> frames_;
-    std::int64_t stride_ = 1;
-    [[maybe_unused]] std::int64_t seen_ = 0;
-};
-
-void write_report(const std::filesystem::path& path, const ReportInput& input, const ReplayRecorder& replay);
+// A long log and replay are thinned so that the page stays below about 5 MB; the page says so.
+// Throws Error(io) if it cannot be written.
+void write_report(const std::filesystem::path& path, const ReportInput& input);
 
 } // namespace sandlane::output

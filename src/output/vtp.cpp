@@ -186,7 +186,7 @@ void VtpWriter::restore(const std::string& bookmark) {
     while (!rest.empty()) {
         const std::size_t end = std::min(rest.find(' '), rest.size());
         double value = 0;
-        if (!read_number(rest.substr(0, end), value))
+        if (!read_number(rest.substr(0, end), value) || (first && value != 0 && value != 1))
             fail(Exit::io, "{}: the checkpoint's list of frames is damaged",
                  (folder_ / "trajectory.pvd").string());
         if (first)

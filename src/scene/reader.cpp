@@ -156,16 +156,4 @@ std::string write_scene(const Scene& scene) {
     return text;
 }
 
-std::string scene_reference() {
-    return "# Scene reference\n\nGenerated from the schema (`sandlane --help-scene`). Numbers are SI, or "
-           "texts with a unit such as "
-           "`\"5 mm\"`.\n\n" +
-           scene_table().reference("(top level)") + domain_table().reference("[domain]") +
-           material_table().reference("[[materials]]") + pair_table().reference("[[pairs]]") +
-           grains_table().reference("[[grains]]") +
-           item_table().reference("items of [[grains]] and [[walls]]") + wall_table().reference("[[walls]]") +
-           motion_table().reference("[[motions]]") + md_table().reference("[md]") +
-           output_table().reference("[output]");
-}
-
 } // namespace sandlane::scene

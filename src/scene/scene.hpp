@@ -12,8 +12,14 @@
 namespace sandlane::scene {
 
 enum class Engine { md };
-enum class NormalLaw { linear_dashpot, viscoelastic };
-enum class TangentialLaw { none, haff_werner };
+enum class NormalLaw {
+#define NORMAL(type, choice, name, key) choice,
+#include "laws/laws.def"
+};
+enum class TangentialLaw {
+#define TANGENTIAL(type, choice, name) choice,
+#include "laws/laws.def"
+};
 enum class Integrator { gear4, gear5, gear6, velocity_verlet };
 enum class NeighbourMethod { automatic, brute_force, link_cells, lattice, lattice_half, verlet };
 enum class Inertia { disc, sphere };  // J = m R^2/2 or 2/5 m R^2 (md-spheres 1.4)
@@ -37,14 +43,15 @@ struct Domain {
 // One material; a law reads only its own coefficients. Mixing rules: md-spheres 2.5.
 struct Material {
     std::string name;
-    double density = 2500;         // kg/m^3 (body = "disc": kg/m^3 times one metre of depth)
-    double stiffness = 0;          // k, N/m: linear dashpot
-    double damping = 0;            // gamma, kg/s: linear dashpot
-    double young = 0;              // Y, Pa: viscoelastic
-    double poisson = 0.3;          // nu
-    double dissipation = 0;        // A, s: viscoelastic
-    double friction = 0;           // mu
-    double tangential_damping = 0; // gamma_t, kg/s: Haff-Werner
+    double density = 2500;           // kg/m^3 (body = "disc": kg/m^3 times one metre of depth)
+    double stiffness = 0;            // k, N/m: linear dashpot
+    double damping = 0;              // gamma, kg/s: linear dashpot
+    double young = 0;                // Y, Pa: viscoelastic
+    double poisson = 0.3;            // nu
+    double dissipation = 0;          // A, s: viscoelastic
+    double friction = 0;             // mu
+    double tangential_damping = 0;   // gamma_t, kg/s: Haff-Werner, Cundall-Strack
+    double tangential_stiffness = 0; // k_t, N/m: Cundall-Strack
 };
 
 // Overrides the mixing rules for one pair of materials; negative: keep the rule.
@@ -53,7 +60,7 @@ struct MaterialPair {
     double stiffness = -1, damping = -1;
     double young = -1,
            dissipation = -1; // young: Y/(1-nu^2) of the pair, so that K = (4/3) sqrt(R_eff) * young / 2
-    double friction = -1, tangential_damping = -1;
+    double friction = -1, tangential_damping = -1, tangential_stiffness = -1;
 };
 
 // R from one uniform number per grain: constant = radius_min; uniform in [min, max]; inverse_square: pdf ~

@@ -86,6 +86,22 @@ template <class T> Field<T> items_field(std::vector<GrainItem> T::*member, std::
 
 } // namespace
 
+const Choices& normal_choices() {
+    static const Choices choices = {
+#define NORMAL(type, choice, name, key) name,
+#include "laws/laws.def"
+    };
+    return choices;
+}
+
+const Choices& tangential_choices() {
+    static const Choices choices = {
+#define TANGENTIAL(type, choice, name) name,
+#include "laws/laws.def"
+    };
+    return choices;
+}
+
 const Choices& neighbour_choices() {
     static const Choices choices = {"auto", "brute-force", "link-cells", "lattice", "lattice-half", "verlet"};
     return choices;
@@ -96,41 +112,52 @@ const Choices& colour_choices() {
     return choices;
 }
 
+const Choices& trajectory_choices() {
+    static const Choices choices = {"dump", "xyz", "vtp", "book"};
+    return choices;
+}
+
 const Table<Scene>& scene_table() {
     static const Table<Scene> table =
         Table<Scene>("Keys outside any table.")
             .text("title", &Scene::title, "shown in pictures and reports")
             .text("description", &Scene::description, "shown in the report")
-            .choice("method", &Scene::method, {"md"}, "engine")
-            .integer("seed", &Scene::seed, between(0, 9e15), "seed of all random numbers");
+            .choice("method", &Scene::method, {"md"}, "engine: force-based molecular dynamics")
+            .integer("seed", &Scene::seed, between(0, 9e15),
+                     "seed of all random numbers; the same seed gives the same scene");
     return table;
 }
 
 const Table<Domain>& domain_table() {
     static const Table<Domain> table =
-        Table<Domain>("The box that holds everything.")
+        Table<Domain>(
+            "The rectangle that holds everything. Its sides are open or periodic; they are no walls.")
             .vector("lower", &Domain::lower, Unit::length, "lower left corner")
             .vector("upper", &Domain::upper, Unit::length, "upper right corner")
             .required()
-            .custom({"periodic", "list of `\"x\"`, `\"y\"`", "", "", "periodic directions", false,
+            .custom({"periodic", "list of `\"x\"`, `\"y\"`", "", "",
+                     "directions in which a grain that leaves comes back on the other side", false,
                      read_periodic, write_periodic})
-            .vector("gravity", &Domain::gravity, Unit::acceleration, "gravity")
-            .choice("outside", &Domain::outside, {"error", "remove"},
-                    "what happens to a grain that leaves through an open side");
+            .vector("gravity", &Domain::gravity, Unit::acceleration, "acceleration of gravity")
+            .choice(
+                "outside", &Domain::outside, {"error", "remove"},
+                "a grain whose centre leaves through an open side ends the run, or is removed and counted");
     return table;
 }
 
 const Table<Material>& material_table() {
     static const Table<Material> table =
-        Table<Material>("Materials of grains and walls. A law reads only its own coefficients.")
+        Table<Material>(
+            "Materials of grains and walls. A law reads only its own coefficients: the linear dashpot "
+            "stiffness and damping, the viscoelastic law young, poisson and dissipation.")
             .text("name", &Material::name, "referred to by grains and walls")
             .required()
             .number("density", &Material::density, Unit::density, positive(),
                     "density (body = \"disc\": times one metre of depth)")
             .number("stiffness", &Material::stiffness, Unit::stiffness, not_negative(),
-                    "k of the linear dashpot")
+                    "spring constant k (linear dashpot)")
             .number("damping", &Material::damping, Unit::damping, not_negative(),
-                    "gamma of the linear dashpot")
+                    "damping constant gamma (linear dashpot)")
             .number("young", &Material::young, Unit::pressure, not_negative(),
                     "Young's modulus Y (viscoelastic)")
             .number("poisson", &Material::poisson, Unit::none, between(-0.99, 0.5),
@@ -138,9 +165,9 @@ const Table<Material>& material_table() {
             .number("dissipation", &Material::dissipation, Unit::time, not_negative(),
                     "dissipative constant A (viscoelastic)")
             .number("friction", &Material::friction, Unit::none, not_negative(),
-                    "Coulomb friction coefficient mu")
+                    "Coulomb friction coefficient mu (Haff-Werner)")
             .number("tangential_damping", &Material::tangential_damping, Unit::damping, not_negative(),
-                    "gamma_t of Haff and Werner");
+                    "tangential damping constant gamma_t (Haff-Werner); 0: no friction");
     return table;
 }
 
@@ -158,7 +185,9 @@ const Table<MaterialPair>& pair_table() {
             .number("dissipation", &MaterialPair::dissipation, Unit::time, any, "A of the pair")
             .number("friction", &MaterialPair::friction, Unit::none, any, "mu of the pair")
             .number("tangential_damping", &MaterialPair::tangential_damping, Unit::damping, any,
-                    "gamma_t of the pair");
+                    "gamma_t of the pair")
+            .number("tangential_stiffness", &MaterialPair::tangential_stiffness, Unit::stiffness, any,
+                    "k_t of the pair");
     return table;
 }
 
@@ -183,14 +212,18 @@ const Table<Grains>& grains_table() {
             .text("name", &Grains::name, "shown in messages")
             .text("material", &Grains::material, "name of a material; may be left out if there is one")
             .choice("kind", &Grains::kind, {"lattice", "random", "pour", "list", "file"},
-                    "how the grains are placed")
+                    "lattice: rows and columns; random: anywhere in the region without overlaps; pour: one "
+                    "after the other "
+                    "while the run goes on, each as soon as there is room; list: as given in items; file: "
+                    "from a file")
             .custom({"radius", "number or `{ law, min, max }`", "m", "above 0",
                      "radius, or a distribution: law `\"uniform\"`, `\"inverse-square\"` (pdf ~ 1/R^2) or "
                      "`\"lognormal\"` between min and max",
                      false, read_sizes, write_sizes})
-            .vector("lower", &Grains::lower, Unit::length, "region, lower corner (lattice: first centre)")
+            .vector("lower", &Grains::lower, Unit::length,
+                    "region of the centres, lower left corner; lattice: first centre")
             .vector("upper", &Grains::upper, Unit::length,
-                    "region, upper corner; lower = upper: the whole domain")
+                    "region of the centres, upper right corner; the same as lower: the whole domain")
             .custom({"counts", "[columns, rows]", "", "0 or more", "lattice: number of grains", false,
                      read_counts,
                      [](const Grains& g) { return fmt::format("[{}, {}]", g.counts[0], g.counts[1]); }})
@@ -200,7 +233,7 @@ const Table<Grains>& grains_table() {
                     "lattice: random displacement in units of the spacing")
             .integer("count", &Grains::count, between(0, 1e9), "random, pour: number of grains")
             .number("packing_fraction", &Grains::packing_fraction, Unit::none, between(0, 0.9),
-                    "random: used when count = 0")
+                    "random: covered part of the region, instead of count")
             .number("start", &Grains::start, Unit::time, not_negative(), "pour: time of the first grain")
             .number("rate", &Grains::rate, Unit::rate, not_negative(), "pour: grains per second")
             .vector("velocity", &Grains::velocity, Unit::speed, "initial velocity")
@@ -216,11 +249,15 @@ const Table<Grains>& grains_table() {
 
 const Table<Wall>& wall_table() {
     static const Table<Wall> table =
-        Table<Wall>("Walls: same contact law, prescribed motion.")
+        Table<Wall>("Walls act on grains by the same laws as grains do, and move as prescribed. Segments and "
+                    "arcs act on "
+                    "both sides, a plane on the side its normal points to, wall grains like fixed grains.")
             .text("name", &Wall::name, "shown in messages and outputs")
             .text("material", &Wall::material, "name of a material; may be left out if there is one")
             .text("motion", &Wall::motion, "name of a motion; empty: fixed")
-            .choice("kind", &Wall::kind, {"plane", "segment", "polyline", "arc", "grains"}, "shape")
+            .choice("kind", &Wall::kind, {"plane", "segment", "polyline", "arc", "grains"},
+                    "infinite line, line between two points, chain of lines, part of a circle, row or ring "
+                    "of grains")
             .vectors("points", &Wall::points, Unit::length,
                      "plane: a point on it; segment, polyline: corners; grains: ends of the row")
             .flag("closed", &Wall::closed, "polyline: joins the last point to the first")
@@ -246,8 +283,9 @@ const Table<Motion>& motion_table() {
             .text("name", &Motion::name, "referred to by walls")
             .required()
             .choice("kind", &Motion::kind, {"fixed", "linear", "oscillate", "rotate", "planetary"},
-                    "kind of motion")
-            .vector("velocity", &Motion::velocity, Unit::speed, "linear: velocity")
+                    "fixed; along a line; to and fro; turning about centre; turning while the centre goes "
+                    "round on an orbit")
+            .vector("velocity", &Motion::velocity, Unit::speed, "linear: velocity of the wall")
             .vector("amplitude", &Motion::amplitude, Unit::length,
                     "oscillate: displacement = amplitude wave(omega t + phase)")
             .number("omega", &Motion::omega, Unit::angular_speed, any,
@@ -265,26 +303,31 @@ const Table<Motion>& motion_table() {
 
 const Table<Md>& md_table() {
     static const Table<Md> table =
-        Table<Md>("Force-based molecular dynamics.")
-            .choice("normal", &Md::normal, {"linear-dashpot", "viscoelastic"}, "normal force")
-            .choice("tangential", &Md::tangential, {"none", "haff-werner"}, "tangential force")
+        Table<Md>(
+            "Force-based molecular dynamics. `neighbours = \"auto\"` picks the method of finding pairs that "
+            "suits the scene, and says why in the plan; all methods give the same contacts.")
+            .choice("normal", &Md::normal, {"linear-dashpot", "viscoelastic"},
+                    "normal force: spring and dashpot, or viscoelastic spheres (Hertz)")
+            .choice("tangential", &Md::tangential, tangential_choices(), "tangential force")
             .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6", "velocity-verlet"},
                     "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet")
             .choice("neighbours", &Md::neighbours, neighbour_choices(), "pair finding")
             .number("dt", &Md::dt, Unit::time, not_negative(),
                     "time step; 0: chosen from the stiffest contact (t_c/50)")
-            .number("duration", &Md::duration, Unit::time, not_negative(), "simulated time")
-            .number("max_speed", &Md::max_speed, Unit::speed, positive(), "largest impact speed expected")
+            .number("duration", &Md::duration, Unit::time, not_negative(), "simulated time; 0: no steps")
+            .number("max_speed", &Md::max_speed, Unit::speed, positive(),
+                    "largest impact speed expected; the time step is derived from it")
             .number("delta", &Md::delta, Unit::none, between(0, 0.9),
                     "lattice: largest overlap in units of the smaller radius")
-            .choice("inertia", &Md::inertia, {"disc", "sphere"}, "moment of inertia m R^2/2 or 2/5 m R^2")
-            .choice("body", &Md::body, {"sphere", "disc"}, "mass 4/3 pi R^3 rho or pi R^2 rho");
+            .choice("inertia", &Md::inertia, {"disc", "sphere"}, "moment of inertia: m R^2/2 or 2/5 m R^2")
+            .choice("body", &Md::body, {"sphere", "disc"},
+                    "mass: 4/3 pi R^3 rho, or pi R^2 rho times one metre");
     return table;
 }
 
 const Table<Output>& output_table() {
     static const Table<Output> table =
-        Table<Output>("What a run writes, and how often.")
+        Table<Output>("What a run writes, and how often in simulated time.")
             .number("log_every", &Output::log_every, Unit::time, any, "log.csv; 0: duration/200")
             .number("picture_every", &Output::picture_every, Unit::time, any,
                     "PNG pictures; 0: duration/20, negative: none")
@@ -292,11 +335,13 @@ const Table<Output>& output_table() {
                     "trajectory; 0: duration/100, negative: none")
             .number("checkpoint_every", &Output::checkpoint_every, Unit::time, not_negative(),
                     "checkpoints; 0: only at the end")
-            .choices("trajectory", &Output::trajectory, {"dump", "xyz", "vtp", "book"}, "trajectory formats")
+            .choices("trajectory", &Output::trajectory, trajectory_choices(),
+                     "LAMMPS dump, extended XYZ, VTK, or snapshots as in the book")
             .choice("colour", &Output::colour, colour_choices(), "colour of the grains")
-            .integer("picture_width", &Output::picture_width, between(64, 16384), "pixels")
+            .integer("picture_width", &Output::picture_width, between(64, 16384),
+                     "width of pictures in pixels")
             .flag("movie", &Output::movie, "movie.mp4, if ffmpeg is installed")
-            .flag("report", &Output::report, "report.html");
+            .flag("report", &Output::report, "report.html: plots and a replay");
     return table;
 }
 

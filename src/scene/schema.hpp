@@ -72,8 +72,11 @@ private:
 };
 
 // Choices that the command line and outputs spell too.
+const Choices& normal_choices();
+const Choices& tangential_choices();
 const Choices& neighbour_choices();
 const Choices& colour_choices();
+const Choices& trajectory_choices();
 
 const Table<Domain>& domain_table();
 const Table<Material>& material_table();

@@ -51,14 +51,15 @@ struct Validator {
             for (std::size_t other = 0; other < n; ++other)
                 if (scene.materials[other].name == m.name)
                     reject("materials[{}].name: \"{}\" is used twice", n, m.name);
-            if (scene.md.normal == NormalLaw::linear_dashpot && !(m.stiffness > 0))
-                reject("materials[{}].stiffness: {} is out of range; md.normal = \"linear-dashpot\" needs "
-                       "more than 0 N/m",
-                       n, m.stiffness);
-            if (scene.md.normal == NormalLaw::viscoelastic && !(m.young > 0))
-                reject("materials[{}].young: {} is out of range; md.normal = \"viscoelastic\" needs more "
-                       "than 0 Pa",
-                       n, m.young);
+#define NORMAL(type, choice, name, key)                                                                      \
+    if (scene.md.normal == NormalLaw::choice && !(m.key > 0))                                                \
+        reject("materials[{}]." #key ": {} is out of range; md.normal = \"" name "\" needs more than 0", n,  \
+               m.key);
+#include "laws/laws.def"
+            if (scene.md.tangential == TangentialLaw::cundall_strack && !(m.tangential_stiffness > 0))
+                reject("materials[{}].tangential_stiffness: {} is out of range; md.tangential = "
+                       "\"cundall-strack\" needs more than 0 N/m",
+                       n, m.tangential_stiffness);
         }
         for (std::size_t n = 0; n < scene.pairs.size(); ++n) {
             material_exists(scene.pairs[n].first, fmt::format("pairs[{}]", n));

@@ -46,7 +46,7 @@ template <class Normal, class Tangential> void compare_with_oracle() {
                      angle = 10.0 * n;
         const double dx = distance * std::cos(angle), dy = distance * std::sin(angle);
         const laws::PairState<double> s{dx, dy, a, b, ri * c + rj * e, ri + rj, 1 / ri + 1 / rj};
-        const auto f = laws::pair_force<Normal, Tangential, double>(s, {100.0, 0.2, 0.3, 0.4});
+        const auto f = laws::pair_force<Normal, Tangential, double>(s, {100.0, 0.2, 0.3, 0.4, 0.0});
         const Oracle o =
             force_on_i(viscoelastic, friction, dx, dy, a, b, ri, rj, c, e, 100, 0.2L, 0.3L, 0.4L);
         // Overlap carries the rounding of distance: eps * distance * stiffness.
@@ -68,7 +68,7 @@ TEST(PairForce, MatchesOracle) {
 // K1, K2: no relative surface velocity in rigid rotation of a touching pair and between gears.
 TEST(PairForce, RigidRotationAndGearsDoNotSlide) {
     const double w = 0.7, ri = 1.0, rj = 0.5, d = 1.4;
-    const laws::PairCoefficients<double> c{100, 0, 1, 10};
+    const laws::PairCoefficients<double> c{100, 0, 1, 10, 0};
     const laws::PairState<double> rigid{
         d, 0, 0, w * d, w * (ri + rj) - w * (ri + rj - d), ri + rj, 1 / ri + 1 / rj};
     EXPECT_NEAR((laws::pair_force<laws::LinearDashpot, laws::HaffWerner, double>(rigid, c).tangential), 0,
@@ -81,7 +81,8 @@ TEST(PairForce, RigidRotationAndGearsDoNotSlide) {
 // Single pair of md-vectorised-lattice table 1; F^t there has the opposite sign (item 12).
 TEST(PairForce, SinglePairOfTableOne) {
     const laws::PairState<double> s{1.2, -1.5, -0.3, 0.2, 0.1, 1.95, 1 / 1.0 + 1 / 0.95};
-    const auto f = laws::pair_force<laws::LinearDashpot, laws::HaffWerner, double>(s, {1000, 0.5, 0.3, 0.4});
+    const auto f =
+        laws::pair_force<laws::LinearDashpot, laws::HaffWerner, double>(s, {1000, 0.5, 0.3, 0.4, 0});
     EXPECT_NEAR(f.x, -18.3116956246788, 1e-11);
     EXPECT_NEAR(f.y, 22.7890960990678, 1e-11);
     EXPECT_NEAR(f.tangential, -0.0627964899966073, 1e-14);
@@ -104,4 +105,23 @@ TEST(Restitution, ViscoelasticFitWithinItsStatedError) { // 2.3 against table 9.
     EXPECT_NEAR(laws::viscoelastic_restitution(0.1), 0.89285888, 5e-5);
     EXPECT_NEAR(laws::viscoelastic_restitution(0.3), 0.72208544, 7e-4);
     EXPECT_NEAR(laws::viscoelastic_restitution(0.5), 0.59525150, 1.8e-3);
+}
+
+// 3.2 step by step: stick, slip with the spring pulled back, immediate release on reversal, reset without
+// load.
+TEST(CundallStrack, SpringAndClamp) {
+    const double k = 100, mu = 0.5, dt = 0.01;
+    double zeta[1] = {laws::no_contact};
+    const auto force = [&](double normal, double rate) {
+        return laws::CundallStrack::force(laws::TangentialInput<double>{normal, rate, 0, mu, k, dt}, zeta);
+    };
+    EXPECT_EQ(force(1, 0.3), 0.0); // first evaluation: no increment
+    EXPECT_EQ(zeta[0], 0.0);
+    EXPECT_NEAR(force(1, 0.3), -k * 0.003, 1e-14); // sticks
+    for (int n = 0; n < 10; ++n) (void)force(1, 0.3);
+    EXPECT_NEAR(force(1, 0.3), -mu, 1e-14); // slides at mu f_n
+    EXPECT_NEAR(zeta[0], mu / k, 1e-16);
+    EXPECT_NEAR(force(1, -0.1), -mu + k * 0.001, 1e-14); // lets go at once
+    EXPECT_EQ(force(0, 0.3), 0.0);
+    EXPECT_EQ(zeta[0], 0.0);
 }

@@ -99,6 +99,9 @@ std::vector<Variant> all_variants() {
                      {NeighbourMethod::brute_force, NeighbourMethod::link_cells, NeighbourMethod::lattice,
                       NeighbourMethod::lattice_half, NeighbourMethod::verlet})
                     variants.push_back({method, normal, tangential, equal_radii});
+    for (const bool equal_radii : {false, true})
+        variants.push_back({NeighbourMethod::verlet, scene::NormalLaw::viscoelastic,
+                            scene::TangentialLaw::cundall_strack, equal_radii});
     return variants;
 }
 
@@ -106,7 +109,9 @@ std::string variant_name(const testing::TestParamInfo<Variant>& info) {
     const Variant& v = info.param;
     return std::string(method_names[static_cast<int>(v.method)]) +
            (v.normal == scene::NormalLaw::viscoelastic ? "_hertz" : "_linear") +
-           (v.tangential == scene::TangentialLaw::none ? "" : "_friction") +
+           (v.tangential == scene::TangentialLaw::none          ? ""
+            : v.tangential == scene::TangentialLaw::haff_werner ? "_friction"
+                                                                : "_springs") +
            (v.equal_radii ? "_equal_radii" : "");
 }
 
@@ -124,6 +129,7 @@ TEST_P(Determinism, SameBitsForEveryIsaAndThreadCount) {
     s.md.neighbours = v.method;
     s.materials[0].young = 1000;
     s.materials[0].dissipation = 1e-3;
+    s.materials[0].tangential_stiffness = 200;
     if (v.tangential == scene::TangentialLaw::none)
         for (auto& g : grains) g.omega = 0;
     if (v.equal_radii) {

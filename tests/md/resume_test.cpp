@@ -10,13 +10,16 @@ using scene::NeighbourMethod;
 namespace {
 
 // Discs that fall into an open box with a floor, some of them poured while the run goes on, some leaving.
-scene::Scene falling_scene(NeighbourMethod method) {
+scene::Scene falling_scene(NeighbourMethod method,
+                           scene::TangentialLaw tangential = scene::TangentialLaw::haff_werner) {
     scene::Scene s = test::lattice_scene(12, 12);
     s.domain.lower = {-6, -4, 0};
     s.domain.upper = {30, 40, 0};
     s.domain.periodic = {true, false};
     s.domain.gravity = {0.5, -1, 0};
     s.md.neighbours = method;
+    s.md.tangential = tangential;
+    s.materials[0].tangential_stiffness = 300;
     scene::Motion motion;
     motion.name = "shake";
     motion.kind = scene::MotionKind::oscillate;
@@ -66,6 +69,23 @@ TEST(Resume, SameBitsAsUndisturbed) {
         EXPECT_EQ(second.state_hash(), straight.state_hash());
         EXPECT_EQ(second.removed(), straight.removed());
     }
+}
+
+// Springs of contacts, also with walls, survive checkpoints, sorts, insertions and removals.
+TEST(Resume, MemoryOfContactsGoesAlong) {
+    const scene::Scene s = falling_scene(NeighbourMethod::verlet, scene::TangentialLaw::cundall_strack);
+    md::Simulation straight = test::make_simulation(s, falling_grains(), simd::available_isas().back(), 2);
+    straight.run(1500);
+    md::Simulation first = test::make_simulation(s, falling_grains(), simd::Isa::scalar);
+    for (const int part : {17, 300, 96, 500}) {
+        first.run(part);
+        md::Simulation next = test::make_simulation(s, falling_grains(), simd::Isa::scalar);
+        next.restore(first.serialise());
+        EXPECT_EQ(next.serialise(), first.serialise());
+        first = next;
+    }
+    first.run(1500 - 913);
+    EXPECT_EQ(first.state_hash(), straight.state_hash());
 }
 
 TEST(Resume, OneStepAtATimeIsTheSameRun) {

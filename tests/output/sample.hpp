@@ -4,6 +4,7 @@
 #include "analysis/snapshot.hpp"
 #include "scene/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -63,12 +64,13 @@ inline Snapshot empty(double time = 0) {
 }
 
 // A few grains of two materials on a row, moving with the frame's number.
-inline Snapshot row(int frame, int grains = 7) {
+inline Snapshot row(int frame) {
+    const int grains = 7;
     Snapshot s = empty(0.1 * frame);
     s.step = 10 * frame;
     for (int i = 0; i < grains; ++i)
-        add_grain(s, 0.02 * (i + 1) + 1e-3 / (frame + 1), 0.03 + 0.001 * i, 0.004 + 0.0005 * i, 0.1 * frame, -1.0 / 3,
-                  -2.5 * i, 0.3 * i + frame, 100.0 * i, i % 2);
+        add_grain(s, 0.02 * (i + 1) + 1e-3 / (frame + 1), 0.03 + 0.001 * i, 0.004 + 0.0005 * i, 0.1 * frame,
+                  -1.0 / 3, -2.5 * i, 0.3 * i + frame, 100.0 * i, i % 2);
     return s;
 }
 
@@ -93,26 +95,38 @@ inline Snapshot walled_row(int frame) {
     return s;
 }
 
-// An hourglass: grains above the neck, some falling, a heap below. `fill` in (0, 1] scales the number of grains.
+// make(0), make(1), ...
+template <class Make> auto frames(const Make& make, int count) {
+    std::vector<decltype(make(0))> made;
+    made.reserve(static_cast<std::size_t>(count));
+    for (int n = 0; n < count; ++n) made.push_back(make(n));
+    return made;
+}
+
+// An hourglass: grains above the neck, some falling, a heap below. `fill` in (0, 1] scales the number of
+// grains.
 inline Snapshot hourglass(double radius, double phase = 0) {
     Snapshot s = empty(phase);
     s.upper = {0.2, 0.3, 0};
     const std::vector<Vec> outline{{0.02, 0.29, 0}, {0.02, 0.22, 0}, {0.09, 0.15, 0}, {0.02, 0.08, 0},
                                    {0.02, 0.01, 0}, {0.18, 0.01, 0}, {0.18, 0.08, 0}, {0.11, 0.15, 0},
                                    {0.18, 0.22, 0}, {0.18, 0.29, 0}};
-    for (std::size_t k = 0; k + 1 < outline.size(); ++k) s.walls.push_back(segment(outline[k], outline[k + 1]));
+    for (std::size_t k = 0; k + 1 < outline.size(); ++k)
+        s.walls.push_back(segment(outline[k], outline[k + 1]));
     const double step = 2.05 * radius;
     int row_index = 0;
     for (double y = 0.01 + radius; y < 0.285; y += 0.866 * step, ++row_index) {
         const bool below = y < 0.135;
         const double half = below ? std::min(0.08, std::max(0.0, 0.09 - 1.1 * (y - 0.01)))
                                   : std::min(0.08, 0.0105 + std::max(0.0, y - 0.151));
-        for (double x = 0.1 - half + 1.1 * radius + (row_index % 2) * radius; x < 0.1 + half - radius; x += step) {
+        for (double x = 0.1 - half + 1.1 * radius + (row_index % 2) * radius; x < 0.1 + half - radius;
+             x += step) {
             const double near = std::hypot(x - 0.1, y - 0.15);
-            const double speed = below ? 0.05 * std::exp(-std::abs(x - 0.1) * 30) : 0.4 * std::exp(-near * 18);
+            const double speed =
+                below ? 0.05 * std::exp(-std::abs(x - 0.1) * 30) : 0.4 * std::exp(-near * 18);
             const double size = radius * (0.8 + 0.2 * std::abs(std::sin(37 * x + 91 * y)));
-            add_grain(s, x, y - 0.002 * phase, size, 0, -speed, 20 * std::sin(50 * x), 12 * x + 40 * y + phase,
-                      below ? 900 * (0.11 - y) : 600 * (0.29 - y));
+            add_grain(s, x, y - 0.002 * phase, size, 0, -speed, 20 * std::sin(50 * x),
+                      12 * x + 40 * y + phase, below ? 900 * (0.11 - y) : 600 * (0.29 - y));
         }
     }
     return s;
@@ -137,7 +151,8 @@ inline sandlane::scene::Scene scene() {
 class Folder {
 public:
     explicit Folder(const std::string& name)
-        : path_(std::filesystem::temp_directory_path() / ("sandlane-" + name + "-" + std::to_string(::getpid()))) {
+        : path_(std::filesystem::temp_directory_path() /
+                ("sandlane-" + name + "-" + std::to_string(::getpid()))) {
         std::filesystem::remove_all(path_);
         std::filesystem::create_directories(path_);
     }

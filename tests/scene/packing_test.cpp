@@ -18,8 +18,7 @@ Scene random_scene(std::int64_t count, double fraction, bool periodic) {
     Scene scene;
     scene.materials.emplace_back().young = 1e8;
     const double mean_square = (1.1 * 1.1 * 1.1 - 0.9 * 0.9 * 0.9) / 0.6;
-    const double side =
-        std::sqrt(static_cast<double>(count) * std::numbers::pi * mean_square / fraction);
+    const double side = std::sqrt(static_cast<double>(count) * std::numbers::pi * mean_square / fraction);
     scene.domain.upper = {side, side, 0};
     scene.domain.periodic = {periodic, periodic};
     Grains& g = scene.grains.emplace_back();

@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""Benchmarks of sandlane. Without a command: a short default set, about a minute.
+
+Rates are particle-steps per second; beside each stands the share of the roofline of its case: the smaller of what
+memory and arithmetic units, both measured in the same run, allow for the bytes and operations that a step needs.
+"""
+import argparse
+import json
+import pathlib
+import sys
+
+import measure
+import tables
+
+
+
+skipped = 77  # exit code, known to ctest
+
+
+def case(method="half", law="linear+friction", phi=0.82, n=10000, isa="avx512", threads=1):
+    return f"md/{method}/{law}/phi={phi}/N={n}/{isa}/threads={threads}"
+
+
+def show(found):
+    print(f"{'case':<64}{'steps/s':>10}{'spread':>8}{'touching':>9}{'of bound':>9}  bound by")
+    for name, records in found.items():
+        rates = [r["particle_steps_per_second"] for r in records]
+        middle = measure.median(records)
+        by = "memory" if records[0]["bound_bytes"] < records[0]["bound_compute"] else "arithmetic"
+        print(f"{name:<64}{middle / 1e6:>8.1f} M{(max(rates) - min(rates)) / middle:>7.0%}"
+              f"{measure.median(records, 'neighbours'):>9.2f}{measure.median(records, 'of_bound'):>9.0%}  {by}")
+
+
+def default(_):
+    isas, _, cpus = measure.info()
+    cases = [case(isa=isa) for isa in isas]
+    cases += [case(phi=phi, isa=isa) for phi in (0.2, 0.5, 0.88) for isa in (isas[0], isas[-1])]
+    cases += [case(method, isa=isas[-1]) for method in ("verlet", "lattice", "cells")]
+    cases += [case(law="hertz+friction", isa=isas[-1])]
+    cases += [case(n=100000, isa=isas[-1], threads=t) for t in range(1, min(2, cpus) + 1)]
+    show(measure.steps(cases, rounds=3, seconds=0.2, save="short"))
+
+
+def kernels(options):
+    print("one line per case as it ends; JSON in build/bench/kernels.json", file=sys.stderr)
+    arguments = [f"--benchmark_filter={options.filter}", f"--benchmark_min_time={options.seconds}",
+                 f"--rounds={options.rounds}"]
+    found = {}
+    for record in measure.program("bench_md", arguments, "kernels"):
+        found.setdefault(measure.short(record["name"]), []).append(record)
+    show(found)
+
+
+def everything(options):
+    roofline(options)
+    options.filter, options.rounds, options.seconds = ".", 1, 0.2
+    kernels(options)
+
+
+def roofline(_):
+    for name, value in measure.roofline().items():
+        kind = name.split("/")[0]
+        text = {"rate": f"{value / 1e9:10.2f} G operations/s", "bandwidth": f"{value / 1e9:10.1f} GB/s",
+                "latency": f"{value * 1e9:10.1f} ns"}[kind]
+        print(f"{name:<44}{text}")
+
+
+def table(options):
+    isas, _, cpus = measure.info()
+    found = measure.steps(tables.cases(case, isas, cpus), options.rounds, options.seconds, "table")
+    tables.write(found, measure.roofline(), case, isas, cpus)
+
+
+def peers(options):
+    sys.path.append(str(pathlib.Path(__file__).parent / "peers"))
+    try:
+        import lammps
+    except ImportError as missing:
+        print(f"skipped: {missing}; on Debian: apt-get install python3-scipy")
+        return skipped
+    return lammps.main(options, skipped)
+
+
+def compare(options):
+    old, new = ({}, {})
+    for path, records in ((options.old, old), (options.new, new)):
+        for r in json.loads(pathlib.Path(path).read_text())["benchmarks"]:
+            records.setdefault(measure.short(r["name"]), []).append(r)
+    print(f"{'case':<64}{'old':>10}{'new':>10}{'new/old':>9}")
+    for name in (n for n in old if n in new):
+        a, b = measure.median(old[name]), measure.median(new[name])
+        print(f"{name:<64}{a / 1e6:>8.1f} M{b / 1e6:>8.1f} M{b / a:>9.3f}")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="tools/bench", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.set_defaults(run=default)
+    commands = parser.add_subparsers(metavar="COMMAND")
+
+    def command(name, run, text):
+        sub = commands.add_parser(name, help=text, description=text)
+        sub.set_defaults(run=run)
+        return sub
+
+    command("all", everything, "every case: all methods, laws, packing fractions, sizes, instruction sets (an hour)")
+    sub = command("kernels", kernels, "the cases whose names match")
+    sub.add_argument("--filter", default=r"N=10000/.*threads=1", help="regular expression of names")
+    sub.add_argument("--rounds", type=int, default=1, help="times that all cases run in turn")
+    sub.add_argument("--seconds", type=float, default=0.2, help="least time of one run")
+    command("roofline", roofline, "rates of operations, bandwidth and latency of this machine")
+    sub = command("table", table, "one run, written into README.md and docs/performance.md (about five minutes)")
+    sub.add_argument("--rounds", type=int, default=5, help="times that all cases run in turn")
+    sub.add_argument("--seconds", type=float, default=0.2, help="least time of one run")
+    sub = command("peers", peers, "the same discs in LAMMPS, physics compared, rates side by side")
+    sub.add_argument("--grains", type=int, nargs="+", default=[1000, 10000, 100000])
+    sub.add_argument("--phi", type=float, nargs="+", default=[0.2, 0.5, 0.82])
+    sub.add_argument("--law", nargs="+", default=["linear", "hertz"], choices=["linear", "hertz"])
+    sub.add_argument("--rounds", type=int, default=3, help="times that both programs run in turn")
+    sub.add_argument("--seconds", type=float, default=1.0, help="aimed time of one run")
+    sub.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
+                     help="for sandlane, for example md.neighbours=verlet or md.integrator=velocity-verlet")
+    sub = command("compare", compare, "two result files (build/bench/*.json) of the same cases")
+    sub.add_argument("old")
+    sub.add_argument("new")
+    options = parser.parse_args()
+    return options.run(options) or 0
+
+
+sys.exit(main())

@@ -1,0 +1,15 @@
+# The files of report.html as one C++ source, written anew whenever one of them changes.
+set(page_folder ${PROJECT_SOURCE_DIR}/src/output/page)
+set(page_scripts format.js plots.js replay-data.js painter.js replay.js report.js)
+file(READ ${page_folder}/report.html PAGE_HTML)
+file(READ ${page_folder}/report.css PAGE_CSS)
+set(PAGE_SCRIPT "")
+foreach(name IN LISTS page_scripts)
+  file(READ ${page_folder}/${name} text)
+  string(APPEND PAGE_SCRIPT "${text}")
+endforeach()
+list(TRANSFORM page_scripts PREPEND ${page_folder}/)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+  ${page_scripts} ${page_folder}/report.html ${page_folder}/report.css)
+set(SANDLANE_PAGE ${PROJECT_BINARY_DIR}/page.cpp)
+configure_file(${PROJECT_SOURCE_DIR}/src/output/page.cpp.in ${SANDLANE_PAGE} @ONLY)

@@ -1,0 +1,49 @@
+// What contacts remember, keyed by who touches whom: the form in which it survives new lists, new storage
+// orders and checkpoints.
+#pragma once
+
+#include "core/bytes.hpp"
+#include "laws/contact.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sandlane::md {
+
+class ContactMemory {
+public:
+    ContactMemory() = default;
+    explicit ContactMemory(int fields) : fields_(static_cast<std::size_t>(fields)) {}
+
+    // first, second: ids of two grains in any order, or the id of a grain and a wall element by `add_wall`.
+    // values: `fields` numbers, `stride` apart.
+    void add(std::int64_t first, std::int64_t second, const double* values, std::ptrdiff_t stride) {
+        add_wall(first < second ? first : second, first < second ? second : first, values, stride);
+    }
+    void add_wall(std::int64_t grain, std::int64_t element, const double* values, std::ptrdiff_t stride);
+
+    // After the last add. The numbers of a contact, or null if it is new.
+    void index();
+    [[nodiscard]] const double* find(std::int64_t first, std::int64_t second) const {
+        return find_wall(first < second ? first : second, first < second ? second : first);
+    }
+    [[nodiscard]] const double* find_wall(std::int64_t grain, std::int64_t element) const;
+    [[nodiscard]] bool empty() const { return keys_.empty(); }
+
+    void write(ByteWriter& bytes) const;
+    // Throws Error(io) for lengths that do not fit.
+    static ContactMemory read(ByteReader& bytes, int fields);
+
+private:
+    struct Key {
+        std::int64_t first, second;
+    };
+    std::size_t fields_ = 0;
+    std::vector<Key> keys_;
+    std::vector<double> values_;       // [contact][fields]
+    std::vector<std::uint32_t> start_; // by first, where its contacts begin in order_
+    std::vector<std::uint32_t> order_; // contacts by first
+};
+
+} // namespace sandlane::md
