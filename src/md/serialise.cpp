@@ -39,6 +39,7 @@ bool suits(const State& state, std::size_t i, const scene::Scene& scene, const P
            radius <= needs.radius_max && mass >= needs.mass_min && mass <= needs.mass_max &&
            state.inverse_radius[i] == 1.0 / radius && state.inverse_mass[i] == 1.0 / mass &&
            (!state.spin() || state.spin_factor[i] == 1.0 / (plan.inertia_factor * mass * radius)) &&
+           state.id[i] >= 0 && static_cast<std::size_t>(state.id[i]) < needs.grains + needs.poured &&
            state.material[i] >= 0 && static_cast<std::size_t>(state.material[i]) < scene.materials.size();
 }
 
@@ -97,8 +98,12 @@ void Simulation::restore(const std::string& bytes) {
     events_.clear();
     const auto events = r.get<std::uint64_t>();
     for (std::uint64_t n = 0; n < events; ++n) events_.push_back(r.get_text());
-    lists_.adopt(plan_.memory > 0 ? ContactMemory::read(r, plan_.memory) : ContactMemory());
-    walls_.adopt(plan_.memory > 0 ? ContactMemory::read(r, plan_.memory) : ContactMemory());
+    const auto grains = static_cast<std::int64_t>(needs_.grains + needs_.poured);
+    const auto memory = [&] {
+        return plan_.memory > 0 ? ContactMemory::read(r, plan_.memory, grains) : ContactMemory();
+    };
+    lists_.adopt(memory());
+    walls_.adopt(memory());
     if (!r.at_end()) damaged();
     const bool on_lattice = plan_.neighbours == scene::NeighbourMethod::lattice ||
                             plan_.neighbours == scene::NeighbourMethod::lattice_half;
