@@ -303,7 +303,7 @@ SANDLANE_INLINE void compress(const Block<xsimd::avx2>& b, unsigned mask, double
 #endif
 
 // ---- rows of four doubles: a force and its reaction, which has the same fourth and third field (equal
-// torque signs, md-spheres 1.7)
+// torque signs, docs/physics.md 2)
 
 template <class Arch> SANDLANE_INLINE void add_row(double* to, const double* row) {
     to[0] += row[0];

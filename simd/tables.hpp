@@ -41,22 +41,22 @@ enum class Target { both, first, second };
 using PairKernel = double (*)(const PairView&, const std::int32_t* i, const std::int32_t* j,
                               std::int32_t count, Target target, double largest);
 
-// L-vectors (md-vectorised-lattice 1.2): one entry per site, row-major with a halo of `reach` sites on every
-// side. Positions are single precision and relative to the centre of their site (items 41, 42): the distance
+// L-vectors (docs/physics.md 10): one entry per site, row-major with a halo of `reach` sites on every
+// side. Positions are single precision and relative to the centre of their site: the distance
 // stage finds a superset of the contacts, the pair kernels decide in double from the records, so the results
-// are those of double. Periodic images need no shift. Empty sites hold x = 1e15 (item 13) and owner -1; sites
+// are those of double. Periodic images need no shift. Empty sites hold x = 1e15 and owner -1; sites
 // of the domain start at `origin`.
 struct LatticeView {
     const float *x, *y, *radius; // radius carries the margin
     const std::int32_t* owner;
     std::ptrdiff_t row_stride, origin;
     std::int32_t columns, rows, reach;
-    const std::int32_t* offsets;      // full mask, ascending; the half mask is its second half (item 14)
+    const std::int32_t* offsets;      // full mask, ascending; the half mask is its second half
     const float *offset_x, *offset_y; // the same in m
     float uniform_square;             // (2 R)^2 with margin, when all radii are equal
 };
 inline constexpr float empty_site = 1e15F;
-// Widening of the single-precision contact distance, 2^-19 of the distance (item 42: 2^-18 of its square).
+// Widening of the single-precision contact distance, 2^-19 of the distance (2^-18 of its square).
 inline constexpr double lattice_margin = 1.0 + 0x1p-19;
 // Sites that are looked at together; fixes the order of additions of the half mask.
 inline constexpr int site_group = 16;
@@ -66,7 +66,7 @@ inline constexpr double candidate_margin = 1.0 + 0x1p-40;
 
 struct SweepResult {
     double largest_overlap = 0; // m
-    std::int64_t occupied = 0;  // sites with a particle: equals N unless two shared a site (item 6)
+    std::int64_t occupied = 0;  // sites with a particle: equals N unless two shared a site
 };
 using LatticeKernel = SweepResult (*)(const LatticeView&, const PairView&, PairKernel, std::int32_t row_begin,
                                       std::int32_t row_end);

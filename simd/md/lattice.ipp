@@ -1,6 +1,6 @@
-// The completely vectorised lattice algorithm (md-vectorised-lattice 1.2, 2.147-2.154): lanes are eight
+// The completely vectorised lattice algorithm (docs/physics.md 10, 2.147-2.154): lanes are eight
 // neighbouring sites, partners are contiguous shifted loads. The distance stage is branch-free; contacts are
-// compressed to pairs and evaluated packed (item 24a).
+// compressed to pairs and evaluated packed.
 #pragma once
 
 #include "simd/md/pairs.ipp"
@@ -62,7 +62,7 @@ SANDLANE_INLINE std::int64_t sweep_row(const LatticeView& lattice, const PairVie
     return occupied;
 }
 
-// Full mask: every contact is met from both sides, each time for the first partner only (item 31).
+// Full mask: every contact is met from both sides, each time for the first partner only.
 template <class Arch, bool many_radii>
 SweepResult lattice_full(const LatticeView& lattice, const PairView& view, PairKernel kernel,
                          std::int32_t row_begin, std::int32_t row_end) {

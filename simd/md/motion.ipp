@@ -1,5 +1,5 @@
 // Gear predictor-corrector, eight particles at a time: correct with the forces of this step, predict the
-// next, wrap, and write the records that the pair kernels read, in one pass over the state (item 35).
+// next, wrap, and write the records that the pair kernels read, in one pass over the state.
 #pragma once
 
 #include "motion/gear.hpp"
@@ -18,7 +18,7 @@ SANDLANE_INLINE void store_dof(double* gear, int dof, const Block<Arch> (&x)[ord
 }
 
 // Wraps one coordinate into [lower, upper) and counts the image. Rounding of the sum may give exactly upper:
-// that is lower (item 26).
+// that is lower.
 template <class Arch>
 SANDLANE_INLINE Block<Arch> wrap(const Block<Arch>& x, double lower, double upper, double period,
                                  std::int32_t* image) {
@@ -96,8 +96,8 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
     return {largest(most), outside};
 }
 
-// Lattice site of each particle (item 26: floor, and the quotient rounded up is clamped; a corrected position
-// may lie below the lower side too).
+// Lattice site of each particle (floor, and the quotient rounded up is clamped; a corrected position may lie
+// below the lower side too).
 template <class Arch> void bin_sites(const BinView& view, std::int64_t begin, std::int64_t end) {
     using R = Block<Arch>;
     const R half(0.5), inverse_dx(1.0 / view.dx), inverse_dy(1.0 / view.dy);

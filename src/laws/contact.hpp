@@ -1,4 +1,4 @@
-// Geometry and force of one contact of two discs (md-spheres 1.5-1.7), the one text that pair kernels, walls,
+// Geometry and force of one contact of two discs (docs/physics.md 2), the one text that pair kernels, walls,
 // references and analyses share.
 #pragma once
 

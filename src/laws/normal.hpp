@@ -1,4 +1,4 @@
-// Normal contact forces (md-spheres section 2). Formulas only, templates on R = double or a block of lanes.
+// Normal contact forces (docs/physics.md 3). Formulas only, templates on R = double or a block of lanes.
 // overlap xi [m], rate d xi/dt [m/s] > 0 while approaching; every law returns f_n >= 0 [N], cut at zero
 // (2.16).
 #pragma once

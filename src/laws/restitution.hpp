@@ -1,4 +1,4 @@
-// Restitution coefficients of the normal laws in closed form or as fits (md-spheres 2.1, 2.3), for derived
+// Restitution coefficients of the normal laws in closed form or as fits (docs/physics.md 3), for derived
 // quantities and tests; engines that collide particles directly use them as models.
 #pragma once
 

@@ -1,11 +1,11 @@
-// Tangential contact forces (md-spheres section 3). Formulas only, templates on R.
+// Tangential contact forces (docs/physics.md 4). Formulas only, templates on R.
 #pragma once
 
 #include "core/real.hpp"
 
 namespace sandlane::laws {
 
-// f_n >= 0 normal force [N], rate v_t of the surfaces along t (1.6) [m/s], coefficients of the pair of
+// f_n >= 0 normal force [N], rate v_t of the surfaces along t [m/s], coefficients of the pair of
 // materials, time since the last evaluation [s].
 template <class R> struct TangentialInput {
     R normal_force, rate;

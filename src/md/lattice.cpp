@@ -59,7 +59,7 @@ void Lattice::clear(const State& state) {
     site_.fill(-1);
 }
 
-// Calls body(site) for the periodic images of a site in the halo (item 15).
+// Calls body(site) for the periodic images of a site in the halo.
 template <class Body> void Lattice::for_images(std::int32_t site, const Body& body) const {
     const std::ptrdiff_t local = site - origin_ + row_margin;
     const std::ptrdiff_t row = local / row_stride_, column = local % row_stride_ - row_margin;

@@ -1,4 +1,4 @@
-// Site arrays of the vectorised lattice algorithm (md-vectorised-lattice part 1): geometry, occupation, halo
+// Site arrays of the vectorised lattice algorithm (docs/physics.md 10): geometry, occupation, halo
 // images.
 #pragma once
 

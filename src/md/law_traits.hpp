@@ -1,5 +1,5 @@
-// What a normal law means beyond its formula: how coefficients of two materials mix (md-spheres 2.5) and what
-// a contact does at a given impact speed (2.1-2.3). One specialisation per NORMAL line of laws.def.
+// What a normal law means beyond its formula: how coefficients of two materials mix (docs/physics.md 5) and
+// what a contact does at a given impact speed (2.1-2.3). One specialisation per NORMAL line of laws.def.
 #pragma once
 
 #include "laws/normal.hpp"

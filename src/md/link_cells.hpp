@@ -1,4 +1,4 @@
-// Link cells (md-spheres 5.2): particles counting-sorted by cell at every step. One cell per direction is
+// Link cells (docs/physics.md 9): particles counting-sorted by cell at every step. One cell per direction is
 // brute force.
 #pragma once
 

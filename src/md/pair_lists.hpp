@@ -1,5 +1,5 @@
-// Verlet lists of the tiles of grains (md-spheres 5.3), in two levels: an outer list of all pairs whose gap
-// is below the skin, from the link cells, and a near list of those that may touch soon, filtered from it.
+// Verlet lists of the tiles of grains (docs/physics.md 9), in two levels: an outer list of all pairs whose
+// gap is below the skin, from the link cells, and a near list of those that may touch soon, filtered from it.
 #pragma once
 
 #include "core/column.hpp"

@@ -36,7 +36,7 @@ const char* integrator_name(scene::Integrator integrator) {
     return names[static_cast<int>(integrator)];
 }
 
-// Largest stable w dt of the integrator at damping ratio z, interpolated in table 4.6.
+// Largest stable w dt of the integrator at damping ratio z (docs/physics.md 8), interpolated.
 double stable_phase(int order, double z) {
     static constexpr double at[] = {0.0, 0.3, 1.0, 3.0};
     static constexpr double bound[4][4] = {{2.0, 1.13, 0.47, 0.166},
@@ -49,7 +49,7 @@ double stable_phase(int order, double z) {
     return b[3] * at[3] / z;
 }
 
-// Largest stable dt gamma/m of a pure damping force (3.1).
+// Largest stable dt gamma/m of a pure damping force.
 double stable_damping(int order) {
     static constexpr double bound[] = {1.0, 0.54, 0.30, 0.16};
     return bound[order - 3];
@@ -164,8 +164,7 @@ Derived derive(const Scene& scene, const Needs& needs) {
         d.restitution_max = std::max({d.restitution_max, fast.restitution, deep.restitution});
         d.overlap_ratio = std::max(d.overlap_ratio, deep.overlap / needs.radius_min);
         if (!needs.friction || c[3] == 0) continue;
-        const double tangential_mass =
-            1 / (2 / needs.mass_min * (1 + 1 / inertia)); // of two light grains (1.10)
+        const double tangential_mass = 1 / (2 / needs.mass_min * (1 + 1 / inertia)); // of two light grains
         if (c[2] > 0) {
             d.critical_dt = std::min(d.critical_dt, stable_damping(order) * tangential_mass / c[2]);
             d.recommended_dt = std::min(d.recommended_dt, 0.15 * tangential_mass / c[2]);

@@ -24,7 +24,7 @@ struct Needs {
     double packing_fraction = 0; // grain area over domain area
 };
 
-// Physics derived from the scene (md-spheres 2.1-2.3, 4.6).
+// Physics derived from the scene (docs/physics.md 3).
 struct Derived {
     double collision_time = 0; // s, smallest over material pairs: pi/w0 or the viscoelastic t_c at max_speed
     double critical_dt = 0;    // s: stability bound of the integrator for the stiffest contact
@@ -45,7 +45,7 @@ struct Plan {
     double dt = 0;
     std::int64_t steps = 0;
     Vec lower, upper;
-    // Lattice geometry (md-vectorised-lattice 1.1).
+    // Lattice geometry (docs/physics.md 10).
     int reach = 2;
     std::int32_t columns = 0, rows = 0;
     double site_x = 0, site_y = 0;            // m
@@ -70,7 +70,8 @@ struct Plan {
 [[nodiscard]] std::string describe(const scene::Scene& scene, const Needs& needs, const Derived& derived,
                                    const Plan& plan);
 
-// Mixed coefficients of all material pairs (md-spheres 2.5), laws::PairCoefficients [materials][materials].
+// Mixed coefficients of all material pairs (docs/physics.md 5), laws::PairCoefficients
+// [materials][materials].
 [[nodiscard]] std::vector<double> pair_table(const scene::Scene& scene);
 
 } // namespace sandlane::md

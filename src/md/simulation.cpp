@@ -52,7 +52,7 @@ void Simulation::prepare_method() {
     }
 }
 
-// Accelerations before the first step: without them every velocity would keep an error of a dt/2 (4.7).
+// Accelerations before the first step: without them every velocity would keep an error of a dt/2.
 void Simulation::start(const std::vector<scene::GrainState>& grains) {
     state_.order = plan_.order;
     state_.dofs = plan_.spin ? 3 : 2;

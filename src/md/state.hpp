@@ -18,7 +18,7 @@ inline constexpr std::size_t tile_size = simd::tile_grains;
 // Only the columns that the plan needs are allocated: without friction there is no angle and no spin column.
 struct State {
     int order = 5, dofs = 2;    // stored derivatives; x, y (and phi)
-    Column<double> gear;        // [block][dof * order + k][lane], Nordsieck-scaled (md-spheres 4.1)
+    Column<double> gear;        // [block][dof * order + k][lane], Nordsieck-scaled (docs/physics.md 7)
     Column<double> record;      // [particle][record_fields], see simd/tables.hpp
     Column<double> next_record; // of the next step, where forces and motion share one pass (double_records)
     bool double_records = false;

@@ -146,6 +146,14 @@ double surface_distance(const WallElement& e, Vec p) {
     return 0;
 }
 
+// Whether the box around the element's surface comes within R of p: spares the reference most of its work.
+bool box_reaches(const WallElement& e, Vec p, double radius) {
+    if (e.kind == WallElement::Kind::plane) return true;
+    const double reach = radius + e.radius;
+    return p.x >= std::min(e.a.x, e.b.x) - reach && p.x <= std::max(e.a.x, e.b.x) + reach &&
+           p.y >= std::min(e.a.y, e.b.y) - reach && p.y <= std::max(e.a.y, e.b.y) + reach;
+}
+
 } // namespace
 
 void Walls::invalidate(const State& state) {
@@ -207,6 +215,8 @@ WallResult Walls::add_forces(WallInput input, std::size_t tile, std::size_t grai
     WallResult worst;
     for (std::size_t i = tile * tile_size; i < std::min(grains, (tile + 1) * tile_size); ++i)
         for (std::size_t e = 0; e < elements_.size(); ++e) {
+            const double* r = input.records + i * simd::record_fields;
+            if (!box_reaches(elements_[e], {r[0], r[1], 0}, r[5])) continue;
             const NearWall pair{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(e)};
             const WallResult one = kernel_(*this, input, &pair, &pair + 1);
             if (one.largest_ratio > worst.largest_ratio) worst = one;

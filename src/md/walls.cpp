@@ -116,7 +116,7 @@ void Walls::add_wall(const scene::Scene& scene, std::size_t index) {
         break;
     case scene::WallKind::arc: {
         e.kind = WallElement::Kind::arc;
-        e.a = wall.centre;
+        e.a = e.b = wall.centre;
         e.radius = wall.radius;
         e.angle_from = wall.angle_from;
         e.angle_span = std::min(wall.angle_to - wall.angle_from, two_pi);

@@ -1,4 +1,4 @@
-// Walls: analytic elements and prescribed wall grains (md-spheres 1.10-1.13). Contacts use the same formula
+// Walls: analytic elements and prescribed wall grains (docs/physics.md 6). Contacts use the same formula
 // text as pairs. A list of near (grain, element) pairs is kept while nothing can have closed the skin.
 #pragma once
 

@@ -1,6 +1,6 @@
-// Gear predictor-corrector in Nordsieck form (md-spheres 4.1): X_k = dt^k/k! d^k y/dt^k, k = 0 .. order-1.
+// Gear predictor-corrector in Nordsieck form (docs/physics.md 7): X_k = dt^k/k! d^k y/dt^k, k = 0 .. order-1.
 // Coefficients c_k for velocity-dependent forces, which dissipative contacts are. Velocity Verlet in the form
-// of md-spheres 4.5 (forces at x(t + dt) and v(t) + dt a(t)) is the member with three values.
+// of docs/physics.md 7 (forces at x(t + dt) and v(t) + dt a(t)) is the member with three values.
 #pragma once
 
 #include "core/real.hpp"

@@ -1,4 +1,4 @@
-// Prescribed rigid motions of walls as functions of absolute time (md-spheres 1.12, 1.13), velocity = exact
+// Prescribed rigid motions of walls as functions of absolute time (docs/physics.md 6), velocity = exact
 // derivative.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The book program's snapshot frames (md-spheres 1.14): 25 columns per grain. A snapshot holds no forces and
+// The book program's snapshot frames: 25 columns per grain. A snapshot holds no forces and
 // no higher derivatives, so columns 14 to 25 are 0. Straight walls and arcs have no place in this format.
 #include "output/single_file.hpp"
 #include "output/writer_list.hpp"

@@ -1,4 +1,4 @@
-// The text formats of the book's program (md-spheres 1.14): init files and snapshot frames of 25 columns.
+// The text formats of the book's program: init files and snapshot frames of 25 columns.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -25,7 +25,7 @@ struct BookHeader {
 struct BookRecord {
     double x = 0, y = 0, phi = 0, vx = 0, vy = 0, omega = 0;
     double radius = 0, mass = 0;
-    int type = 0;                                      // 0: free; md-spheres 1.13
+    int type = 0;                                      // 0: free; docs/physics.md 6
     double modulus = 0;                                // column 10, Y_col = 4 Y/(3 (1 - nu^2))
     double dissipation = 0, friction = 0, damping = 0; // A, mu, gamma_t
     std::array<double, 3> force{};                     // Fx, Fy, torque
@@ -48,7 +48,7 @@ struct Book {
 [[nodiscard]] std::string write_book_frame(const Book& book);
 
 // The init file as a scene: grains and walls as explicit lists, the motions of the types 2 to 6 with the
-// parameters of md-spheres 1.13, one material for each set of coefficients. Time starts at 0.
+// parameters of docs/physics.md 6, one material for each set of coefficients. Time starts at 0.
 [[nodiscard]] Scene scene_from_book(const Book& book, const std::string& file);
 
 } // namespace sandlane::scene

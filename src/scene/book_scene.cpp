@@ -1,4 +1,4 @@
-// An init file of the book's program as a scene (md-spheres 1.13, 1.14).
+// An init file of the book's program as a scene (docs/physics.md 6).
 #include "core/error.hpp"
 #include "scene/book_format.hpp"
 

@@ -16,7 +16,7 @@ namespace sandlane::scene {
 
 namespace {
 
-constexpr double legal_overlap = 0.05; // of the smaller radius (md-spheres 2.6)
+constexpr double legal_overlap = 0.05; // of the smaller radius (docs/physics.md 12)
 
 class Checker {
 public:

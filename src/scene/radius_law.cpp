@@ -32,7 +32,7 @@ double radius_of(const Sizes& sizes, double uniform) {
         return a;
     case SizeLaw::uniform:
         return a + uniform * (b - a);
-    case SizeLaw::inverse_square: // pdf = ab/(b-a) / R^2 (md-spheres S1)
+    case SizeLaw::inverse_square: // pdf = ab/(b-a) / R^2
         return a * b / (b - uniform * (b - a));
     case SizeLaw::lognormal: // ln R has mean ln sqrt(ab) and standard deviation ln(b/a)/4
         return std::sqrt(a * b) * std::exp(0.25 * std::log(b / a) * cut_normal(uniform));

@@ -22,7 +22,7 @@ enum class TangentialLaw {
 };
 enum class Integrator { gear4, gear5, gear6, velocity_verlet };
 enum class NeighbourMethod { automatic, brute_force, link_cells, lattice, lattice_half, verlet };
-enum class Inertia { disc, sphere };  // J = m R^2/2 or 2/5 m R^2 (md-spheres 1.4)
+enum class Inertia { disc, sphere };  // J = m R^2/2 or 2/5 m R^2 (docs/physics.md 1)
 enum class Body { sphere, disc };     // mass of a grain: 4/3 pi R^3 rho, or pi R^2 rho (per metre of depth)
 enum class Outside { error, remove }; // what happens to a grain that leaves an open side of the domain
 enum class GrainKind { lattice, random, pour, list, file };
@@ -40,7 +40,7 @@ struct Domain {
     Outside outside = Outside::remove;
 };
 
-// One material; a law reads only its own coefficients. Mixing rules: md-spheres 2.5.
+// One material; a law reads only its own coefficients. Mixing rules: docs/physics.md 5.
 struct Material {
     std::string name;
     double density = 2500;           // kg/m^3 (body = "disc": kg/m^3 times one metre of depth)
@@ -64,7 +64,7 @@ struct MaterialPair {
 };
 
 // R from one uniform number per grain: constant = radius_min; uniform in [min, max]; inverse_square: pdf ~
-// 1/R^2 (md-spheres S1); lognormal with median sqrt(min max), cut at min and max (two standard deviations).
+// 1/R^2; lognormal with median sqrt(min max), cut at min and max (two standard deviations).
 struct Sizes {
     SizeLaw law = SizeLaw::constant;
     double min = 0, max = 0;
@@ -121,7 +121,7 @@ struct Wall {
 };
 
 // Named prescribed motion of walls, a rigid transformation that is a function of absolute time
-// (md-spheres 1.12, 1.13).
+// (docs/physics.md 6).
 struct Motion {
     std::string name;
     MotionKind kind = MotionKind::fixed;

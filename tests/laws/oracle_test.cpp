@@ -15,7 +15,7 @@ struct Oracle {
     Real fx, fy, ft;
 };
 
-// md-spheres 1.5-1.7 with equations (2.8) or (2.14), and (2.18), written out for two discs.
+// docs/physics.md 2 with equations (2.8) or (2.14), and (2.18), written out for two discs.
 Oracle force_on_i(bool viscoelastic, bool friction, Real dx, Real dy, Real dvx, Real dvy, Real ri, Real rj,
                   Real wi, Real wj, Real elastic, Real dissipative, Real gamma_t, Real mu) {
     const Real d = std::sqrt(dx * dx + dy * dy), xi = ri + rj - d;
@@ -65,7 +65,7 @@ TEST(PairForce, MatchesOracle) {
     compare_with_oracle<laws::Viscoelastic, laws::HaffWerner>();
 }
 
-// K1, K2: no relative surface velocity in rigid rotation of a touching pair and between gears.
+// No relative surface velocity in rigid rotation of a touching pair and between gears.
 TEST(PairForce, RigidRotationAndGearsDoNotSlide) {
     const double w = 0.7, ri = 1.0, rj = 0.5, d = 1.4;
     const laws::PairCoefficients<double> c{100, 0, 1, 10, 0};
@@ -78,7 +78,7 @@ TEST(PairForce, RigidRotationAndGearsDoNotSlide) {
                 1e-14);
 }
 
-// Single pair of md-vectorised-lattice table 1; F^t there has the opposite sign (item 12).
+// Single pair of values computed independently; F^t there has the opposite sign.
 TEST(PairForce, SinglePairOfTableOne) {
     const laws::PairState<double> s{1.2, -1.5, -0.3, 0.2, 0.1, 1.95, 1 / 1.0 + 1 / 0.95};
     const auto f =
@@ -107,7 +107,7 @@ TEST(Restitution, ViscoelasticFitWithinItsStatedError) { // 2.3 against table 9.
     EXPECT_NEAR(laws::viscoelastic_restitution(0.5), 0.59525150, 1.8e-3);
 }
 
-// 3.2 step by step: stick, slip with the spring pulled back, immediate release on reversal, reset without
+// Step by step: stick, slip with the spring pulled back, immediate release on reversal, reset without
 // load.
 TEST(CundallStrack, SpringAndClamp) {
     const double k = 100, mu = 0.5, dt = 0.01;

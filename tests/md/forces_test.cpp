@@ -1,4 +1,4 @@
-// Force sums of every pair-finding method, kernel and thread count against md-vectorised-lattice table 1.
+// Force sums of every pair-finding method, kernel and thread count against values computed independently.
 #include "support/lattice_system.hpp"
 
 #include <gtest/gtest.h>

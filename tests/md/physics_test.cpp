@@ -1,4 +1,4 @@
-// Whole simulations against closed forms and reference numbers of md-spheres section 9.
+// Whole simulations against closed forms and reference numbers of docs/physics.md 14.
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "md/simulation.hpp"
@@ -63,16 +63,15 @@ double restitution(const scene::Scene& s, double radius, double mass, std::int64
 
 } // namespace
 
-TEST(Collision, LinearDashpotT1) { // m_eff 5e-4, k 1e5, gamma 1: eps_cut 0.8084243834 (9.2)
+TEST(Collision, LinearDashpot) { // m_eff 5e-4, k 1e5, gamma 1: eps_cut 0.8084243834
     scene::Scene s = empty_scene();
     s.materials[0].stiffness = 1e5;
     s.materials[0].damping = 1;
-    s.md.dt =
-        2.2270159859e-4 / 5003.7; // first order in dt from the unresolved instants of touch and release (4.4)
+    s.md.dt = 2.2270159859e-4 / 5003.7; // first order in dt from the unresolved instants of touch and release
     EXPECT_NEAR(restitution(s, 0.01, 1e-3, 8000), 0.8084243834, 1e-4);
 }
 
-TEST(Collision, ViscoelasticT4) { // T2 with A = 1e-5: eps_cut 0.8932824518 (9.3)
+TEST(Collision, Viscoelastic) { // A = 1e-5: eps_cut 0.8932824518
     scene::Scene s = empty_scene();
     s.md.normal = scene::NormalLaw::viscoelastic;
     s.materials[0].young = 1e9;
@@ -83,7 +82,7 @@ TEST(Collision, ViscoelasticT4) { // T2 with A = 1e-5: eps_cut 0.8932824518 (9.3
 }
 
 TEST(Derived, CollisionTimesAndMasses) {
-    scene::Scene s = empty_scene(); // T2: t_c 3.2318662744e-4, xi_max 1.0980510051e-4
+    scene::Scene s = empty_scene(); // equal spheres: t_c 3.2318662744e-4, xi_max 1.0980510051e-4
     s.md.normal = scene::NormalLaw::viscoelastic;
     s.materials[0].young = 1e9;
     s.md.max_speed = 1;
@@ -92,7 +91,7 @@ TEST(Derived, CollisionTimesAndMasses) {
     EXPECT_NEAR(md::derive(s, needs).collision_time, 3.2318662744e-4, 1e-12);
 }
 
-TEST(Wall, BouncesToTheReferenceHeight) { // 9.7, eps 0.8: height after 5 bounces 0.0107374182 for drop 0.1 m
+TEST(Wall, BouncesToTheReferenceHeight) { // eps 0.8: height after 5 bounces 0.0107374182 for drop 0.1 m
     scene::Scene s = empty_scene();
     s.domain.gravity = {0, -9.81, 0};
     const double m = 1e-3, k = 1e6, z = 0.0743551;
@@ -120,7 +119,7 @@ TEST(Wall, BouncesToTheReferenceHeight) { // 9.7, eps 0.8: height after 5 bounce
     EXPECT_NEAR(highest, 0.0107374182, 0.02 * 0.0107374182);
 }
 
-TEST(Wall, RestingHertzOverlap) { // 9.7: (m g/K)^{2/3} = 2.1934702590e-5 for K 1e6
+TEST(Wall, RestingHertzOverlap) { // (m g/K)^{2/3} = 2.1934702590e-5 for K 1e6
     scene::Scene s = empty_scene();
     s.domain.gravity = {0, -9.81, 0};
     s.md.normal = scene::NormalLaw::viscoelastic;
@@ -136,7 +135,7 @@ TEST(Wall, RestingHertzOverlap) { // 9.7: (m g/K)^{2/3} = 2.1934702590e-5 for K 
     EXPECT_NEAR(R - sim.snapshot().y[0], 2.1934702590e-5, 1e-14);
 }
 
-TEST(Wall, SlidingDiscStartsToRoll) { // 9.6: v/v0 = 1/(1 + c) = 2/3, Haff-Werner reaches it exponentially
+TEST(Wall, SlidingDiscStartsToRoll) { // v/v0 = 1/(1 + c) = 2/3, Haff-Werner reaches it exponentially
     scene::Scene s = empty_scene();
     s.domain.gravity = {0, -9.81, 0};
     s.md.tangential = scene::TangentialLaw::haff_werner;
@@ -154,7 +153,7 @@ TEST(Wall, SlidingDiscStartsToRoll) { // 9.6: v/v0 = 1/(1 + c) = 2/3, Haff-Werne
     EXPECT_NEAR(now.omega[0], -2.0 / 3.0 / R, 1e-4);
 }
 
-TEST(Wall, ObliqueGrossSliding) { // 9.6: eps 0.8, g_n = g_t = 1, mu 0.1: centre -0.18, contact point after
+TEST(Wall, ObliqueGrossSliding) { // eps 0.8, g_n = g_t = 1, mu 0.1: centre -0.18, contact point after
                                   // 0.46 (disc)
     scene::Scene s = empty_scene();
     s.md.tangential = scene::TangentialLaw::haff_werner;
@@ -173,7 +172,7 @@ TEST(Wall, ObliqueGrossSliding) { // 9.6: eps 0.8, g_n = g_t = 1, mu 0.1: centre
     EXPECT_NEAR(now.vx[0] + 0.01 * now.omega[0], 0.46, 2e-3);
 }
 
-// 9.6, gross stick without loss: u_t'/u_t = cos(pi sqrt((k_t/k_n)(m_eff/m_t))), with m_t = m/3 for a disc on
+// gross stick without loss: u_t'/u_t = cos(pi sqrt((k_t/k_n)(m_eff/m_t))), with m_t = m/3 for a disc on
 // a wall.
 TEST(Wall, ObliqueGrossStickOfTheSpring) {
     const struct {
@@ -231,7 +230,7 @@ TEST(Lists, MemoryNeedsThem) {
     EXPECT_THROW(simulate(s, {grain(0, {0, 0, 0}, {}, 0.01, 1e-3)}), Error);
 }
 
-TEST(Conservation, MomentumAndEnergyOfElasticGas) { // K3, K5: 36 discs R 0.5, box 9, k 1e4, t = 10
+TEST(Conservation, MomentumAndEnergyOfElasticGas) { // 36 discs R 0.5, box 9, k 1e4, t = 10
     scene::Scene s = empty_scene();
     s.domain.lower = {0, 0, 0};
     s.domain.upper = {9, 9, 0};
@@ -271,7 +270,7 @@ TEST(Start, ConsistentUnderGravity) { // 4.7: free fall is exact from the first 
     EXPECT_NEAR(sim.snapshot().y[0], 0.5 - 0.5 * 9.81 * 1e-4, 1e-13);
 }
 
-TEST(Stress, OppositeForcesOnADisc) { // 9.8: two opposite unit forces on R = 1: p = 0.3183098862
+TEST(Stress, OppositeForcesOnADisc) { // two opposite unit forces on R = 1: p = 0.3183098862
     scene::Scene s = empty_scene();
     s.domain.lower = {-4, -4, 0};
     s.domain.upper = {4, 4, 0};

@@ -1,5 +1,5 @@
-// Gear predictor-corrector: measured errors and orders of md-spheres 4.3, exactness for constant acceleration
-// (I5).
+// Gear predictor-corrector: measured errors and orders of docs/physics.md 7, exactness for constant
+// acceleration.
 #include "motion/gear.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The perturbed triangular packing of md-vectorised-lattice table 1: 64 discs, no random numbers.
+// The perturbed triangular packing of values computed independently: 64 discs, no random numbers.
 #pragma once
 
 #include "md/simulation.hpp"
