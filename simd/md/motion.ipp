@@ -96,7 +96,8 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
     return {largest(most), outside};
 }
 
-// Lattice site of each particle (floor, and the quotient rounded up is clamped).
+// Lattice site of each particle (floor, and the quotient rounded up is clamped; a corrected position may lie
+// below the lower side too).
 template <class Arch> void bin_sites(const BinView& view, std::int64_t begin, std::int64_t end) {
     using R = Block<Arch>;
     const R half(0.5), inverse_dx(1.0 / view.dx), inverse_dy(1.0 / view.dy);
@@ -107,8 +108,8 @@ template <class Arch> void bin_sites(const BinView& view, std::int64_t begin, st
             ys[l] = view.records[(first + l) * record_fields + 1];
         }
         const R x = load<Arch>(xs) - R(view.lower_x), y = load<Arch>(ys) - R(view.lower_y);
-        const R column = min(floor(x * inverse_dx), R(view.columns - 1));
-        const R row = min(floor(y * inverse_dy), R(view.rows - 1));
+        const R column = max(min(floor(x * inverse_dx), R(view.columns - 1)), R(0.0));
+        const R row = max(min(floor(y * inverse_dy), R(view.rows - 1)), R(0.0));
         store(xs, column);
         store(ys, row);
         const int size = end - first < width ? static_cast<int>(end - first) : width;

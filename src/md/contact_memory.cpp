@@ -39,16 +39,15 @@ void ContactMemory::write(ByteWriter& bytes) const {
     bytes.put_array(values_.data(), values_.size());
 }
 
-ContactMemory ContactMemory::read(ByteReader& bytes, int fields) {
+ContactMemory ContactMemory::read(ByteReader& bytes, int fields, std::int64_t grains) {
     ContactMemory memory(fields);
     std::vector<std::int64_t> ids;
     bytes.get_array(ids);
     bytes.get_array(memory.values_);
     if (ids.size() % 2 != 0 || memory.values_.size() != ids.size() / 2 * memory.fields_)
-        fail(Exit::io, "checkpoint: memory of contacts of unequal length");
+        fail(Exit::io, "memory of contacts of unequal length");
     for (std::size_t n = 0; n < ids.size(); n += 2) {
-        if (ids[n] < 0 || ids[n] > std::int64_t{1} << 31)
-            fail(Exit::io, "checkpoint: a contact of grain {} that cannot be", ids[n]);
+        if (ids[n] < 0 || ids[n] >= grains) fail(Exit::io, "a contact of grain {} that cannot be", ids[n]);
         memory.keys_.push_back({ids[n], ids[n + 1]});
     }
     memory.index();

@@ -32,8 +32,8 @@ public:
     [[nodiscard]] bool empty() const { return keys_.empty(); }
 
     void write(ByteWriter& bytes) const;
-    // Throws Error(io) for lengths that do not fit.
-    static ContactMemory read(ByteReader& bytes, int fields);
+    // Throws Error(io) for lengths that do not fit and for a grain that is not one of 0 .. grains - 1.
+    static ContactMemory read(ByteReader& bytes, int fields, std::int64_t grains);
 
 private:
     struct Key {

@@ -5,6 +5,7 @@
 #include "motion/gear.hpp"
 #include "simd/tables.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sandlane::simd {
@@ -318,8 +319,8 @@ void bin_sites(const BinView& view, std::int64_t begin, std::int64_t end) {
         const double x = r[0] - view.lower_x, y = r[1] - view.lower_y;
         auto column = static_cast<std::int32_t>(std::floor(x * (1.0 / view.dx)));
         auto row = static_cast<std::int32_t>(std::floor(y * (1.0 / view.dy)));
-        if (column >= view.columns) column = view.columns - 1;
-        if (row >= view.rows) row = view.rows - 1;
+        column = std::clamp(column, 0, view.columns - 1);
+        row = std::clamp(row, 0, view.rows - 1);
         view.site[i] = static_cast<std::int32_t>(view.origin + row * view.row_stride + column);
         if (view.relative_x == nullptr) continue;
         view.relative_x[i] = static_cast<float>(x - (column + 0.5) * view.dx);

@@ -25,18 +25,22 @@ template <class StateRef, class Body> void for_columns(StateRef& state, const Bo
 
 // What indexes memory, and what the plan was made for. Corrected positions may lie a fraction of a step
 // outside.
-bool suits(const State& state, const scene::Scene& scene, const Plan& plan, const Needs& needs) {
-    const auto materials = static_cast<std::int32_t>(scene.materials.size());
+bool suits(const State& state, std::size_t i, const scene::Scene& scene, const Plan& plan,
+           const Needs& needs) {
     const auto near = [&](double x, double low, double high) {
         return x > low - needs.radius_min && x < high + needs.radius_min;
     };
-    for (std::size_t i = 0; i < state.size(); ++i)
-        if (state.material[i] < 0 || state.material[i] >= materials ||
-            !(state.radius[i] >= needs.radius_min && state.radius[i] <= needs.radius_max) ||
-            !near(state.value(i, 0, 0), plan.lower.x, plan.upper.x) ||
-            !near(state.value(i, 1, 0), plan.lower.y, plan.upper.y))
-            return false;
-    return true;
+    for (int dof = 0; dof < state.dofs; ++dof)
+        for (int k = 0; k < state.order; ++k)
+            if (!std::isfinite(state.value(i, dof, k))) return false;
+    const double mass = state.mass[i], radius = state.radius[i];
+    return near(state.value(i, 0, 0), plan.lower.x, plan.upper.x) &&
+           near(state.value(i, 1, 0), plan.lower.y, plan.upper.y) && radius >= needs.radius_min &&
+           radius <= needs.radius_max && mass >= needs.mass_min && mass <= needs.mass_max &&
+           state.inverse_radius[i] == 1.0 / radius && state.inverse_mass[i] == 1.0 / mass &&
+           (!state.spin() || state.spin_factor[i] == 1.0 / (plan.inertia_factor * mass * radius)) &&
+           state.id[i] >= 0 && static_cast<std::size_t>(state.id[i]) < needs.grains + needs.poured &&
+           state.material[i] >= 0 && static_cast<std::size_t>(state.material[i]) < scene.materials.size();
 }
 
 } // namespace
@@ -78,7 +82,8 @@ void Simulation::restore(const std::string& bytes) {
     if (r.get<std::int32_t>() != state_.order || r.get<std::int32_t>() != state_.dofs) damaged();
     for_columns(state_, [&](auto& column) { r.get_array(column); });
     state_.adopt(plan_);
-    if (!suits(state_, scene_, plan_, needs_)) damaged();
+    for (std::size_t i = 0; i < state_.size(); ++i)
+        if (!suits(state_, i, scene_, plan_, needs_)) damaged();
     next_waiting_ = static_cast<std::size_t>(r.get<std::uint64_t>());
     if (r.get<std::uint64_t>() != waiting_.size() || next_waiting_ > waiting_.size()) damaged();
     std::map<std::int64_t, scene::GrainState> by_id;
@@ -93,8 +98,12 @@ void Simulation::restore(const std::string& bytes) {
     events_.clear();
     const auto events = r.get<std::uint64_t>();
     for (std::uint64_t n = 0; n < events; ++n) events_.push_back(r.get_text());
-    lists_.adopt(plan_.memory > 0 ? ContactMemory::read(r, plan_.memory) : ContactMemory());
-    walls_.adopt(plan_.memory > 0 ? ContactMemory::read(r, plan_.memory) : ContactMemory());
+    const auto grains = static_cast<std::int64_t>(needs_.grains + needs_.poured);
+    const auto memory = [&] {
+        return plan_.memory > 0 ? ContactMemory::read(r, plan_.memory, grains) : ContactMemory();
+    };
+    lists_.adopt(memory());
+    walls_.adopt(memory());
     if (!r.at_end()) damaged();
     const bool on_lattice = plan_.neighbours == scene::NeighbourMethod::lattice ||
                             plan_.neighbours == scene::NeighbourMethod::lattice_half;
@@ -103,7 +112,7 @@ void Simulation::restore(const std::string& bytes) {
     force_step_ = step_ + 1;
     sorted_ = true;
     state_.refresh_records(plan_.dt);
-    bin();
+    if (lattice_.rows() > 0) lattice_.clear(state_); // the next prediction puts all grains on it
 }
 
 } // namespace sandlane::md

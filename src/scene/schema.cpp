@@ -167,7 +167,10 @@ const Table<Material>& material_table() {
             .number("friction", &Material::friction, Unit::none, not_negative(),
                     "Coulomb friction coefficient mu (Haff-Werner)")
             .number("tangential_damping", &Material::tangential_damping, Unit::damping, not_negative(),
-                    "tangential damping constant gamma_t (Haff-Werner); 0: no friction");
+                    "tangential damping constant gamma_t (Haff-Werner: 0 is no friction; Cundall-Strack: "
+                    "beside the spring)")
+            .number("tangential_stiffness", &Material::tangential_stiffness, Unit::stiffness, not_negative(),
+                    "tangential spring constant k_t (Cundall-Strack)");
     return table;
 }
 

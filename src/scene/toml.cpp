@@ -36,9 +36,29 @@ Value convert(const toml::node& node, const std::string& file, std::uint32_t par
     return v;
 }
 
+// toml++ limits the depth of values but not of dotted keys, for which it recurses too.
+void check_depth_of_keys(std::string_view text, const std::string& file) {
+    constexpr int deepest = 100;
+    int line = 1, parts = 1;
+    bool in_text = false;
+    char last = '\n';
+    for (const char c : text) {
+        if (c == '\n') {
+            ++line;
+            in_text = false;
+        }
+        if (c == '"' && last != '\\') in_text = !in_text;
+        if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) parts = 1;
+        if (c == '.' && last != '.' && !in_text && ++parts > deepest)
+            fail(Exit::invalid_input, "{}:{}: a key of more than {} parts", file, line, deepest);
+        last = c;
+    }
+}
+
 } // namespace
 
 Value parse_toml(const std::string& text, const std::string& file) {
+    check_depth_of_keys(text, file);
     try {
         const toml::table table = toml::parse(text, file);
         Value root = convert(table, file, 0);

@@ -1,5 +1,6 @@
-// Checkpoints. Odd first byte: the rest is a file, read as it is and with its header made to fit. Even: the
-// rest is a list of patches (offset, eight bytes) of the state of a small run, behind the checksum.
+// Checkpoints. First byte 1: the rest is a file, read as it is and with its header made to fit. Else the rest
+// is a list of patches (offset, eight bytes) of the state of a small run, behind the checksum: on the
+// lattice, or for 2 with lists and contacts that remember.
 #include "core/bytes.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -26,12 +27,13 @@ name = "glass"
 young = 1e6
 friction = 0.5
 tangential_damping = 0.1
+tangential_stiffness = 100
 [[grains]]
 kind = "lattice"
 radius = { law = "uniform", min = 0.045, max = 0.05 }
-lower = [0.1, 0.1]
-counts = [4, 3]
-spacing = [0.2, 0.2]
+lower = [0.1, 0.065]
+counts = [8, 3]
+spacing = [0.0955, 0.0955]
 [[grains]]
 kind = "pour"
 radius = 0.05
@@ -41,14 +43,13 @@ lower = [0.1, 0.8]
 upper = [0.9, 0.9]
 [[walls]]
 kind = "segment"
-points = [[0, 0.02], [1, 0.02]]
+points = [[0, 0.019], [1, 0.019]]
 [md]
-neighbours = "lattice"
 max_speed = 0.1
 )";
 
-md::Simulation new_run() {
-    const scene::Scene s = scene::parse_scene(scene_text, "fuzz.toml");
+md::Simulation new_run(const scene::Overrides& overrides) {
+    const scene::Scene s = scene::parse_scene(scene_text, "fuzz.toml", overrides);
     const auto grains = scene::initial_grains(s);
     const md::Needs needs = md::analyse(s, grains);
     return {s, grains, needs, md::make_plan(s, needs, md::derive(s, needs), simd::Isa::scalar, {1, "fuzz"})};
@@ -71,14 +72,19 @@ void read_file_of(std::string bytes) {
     (void)output::parse_checkpoint(bytes, "fuzz.checkpoint");
 }
 
-void restore_patched(const std::uint8_t* data, std::size_t size) {
-    static const md::Simulation fresh = new_run();
-    static const std::string state = [] {
+struct Run {
+    md::Simulation fresh;
+    std::string state; // after ten steps
+
+    explicit Run(const scene::Overrides& overrides) : fresh(new_run(overrides)) {
         md::Simulation run = fresh;
         run.run(10);
-        return run.serialise();
-    }();
-    std::string bytes = state;
+        state = run.serialise();
+    }
+};
+
+void restore_patched(const Run& run, const std::uint8_t* data, std::size_t size) {
+    std::string bytes = run.state;
     constexpr std::size_t patch = 10;
     for (; size >= patch; data += patch, size -= patch) {
         std::uint16_t offset = 0;
@@ -87,7 +93,7 @@ void restore_patched(const std::uint8_t* data, std::size_t size) {
         std::memcpy(bytes.data() + at, data + 2, 8);
     }
     if (size > 0) bytes.resize(bytes.size() * data[0] / 255);
-    md::Simulation simulation = fresh;
+    md::Simulation simulation = run.fresh;
     simulation.restore(bytes);
     (void)simulation.state_hash();
     simulation.run(3);
@@ -98,11 +104,13 @@ void restore_patched(const std::uint8_t* data, std::size_t size) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
+    static const Run on_lattice({"md.neighbours=lattice"});
+    static const Run with_springs({"md.tangential=cundall-strack"});
     try {
-        if (data[0] % 2 != 0)
+        if (data[0] == 1)
             read_file_of(std::string(reinterpret_cast<const char*>(data + 1), size - 1));
         else
-            restore_patched(data + 1, size - 1);
+            restore_patched(data[0] == 2 ? with_springs : on_lattice, data + 1, size - 1);
     } catch (const Error&) {
     }
     return 0;

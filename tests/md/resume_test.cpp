@@ -40,7 +40,7 @@ std::vector<scene::GrainState> falling_grains() {
     for (auto& g : grains) g.position = {1.05 * g.position.x, 1.05 * g.position.y, 0};
     for (int n = 0; n < 20; ++n) {
         scene::GrainState g = grains[static_cast<std::size_t>(n)];
-        g.id = 1000 + n;
+        g.id = static_cast<std::int64_t>(grains.size());
         g.position = {2.0 + n % 5, 35, 0};
         g.velocity = {0, -1, 0};
         g.insert_at = 0.02 * n;

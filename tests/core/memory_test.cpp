@@ -1,0 +1,26 @@
+// More memory than there is is refused in words.
+#include "core/memory.hpp"
+
+#include "core/error.hpp"
+#include "support/says.hpp"
+
+namespace sandlane {
+
+namespace {
+
+TEST(Memory, RefusesWhatCannotBe) {
+    EXPECT_GT(allowed_memory(), 1e6);
+    EXPECT_NO_THROW(require_memory(allowed_memory(), "all of it"));
+    try {
+        require_memory(3e18, "a large scene");
+        ADD_FAILURE();
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), Exit::unavailable);
+        EXPECT_SAYS(std::string(e.what()),
+                    "a large scene needs about 3e+09 GB of memory; this process may use");
+    }
+}
+
+} // namespace
+
+} // namespace sandlane
