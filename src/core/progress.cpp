@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include <unistd.h>
@@ -13,7 +14,7 @@ void tell(std::string_view text) {
 }
 
 std::string clock_text(double seconds) {
-    const auto whole = static_cast<std::int64_t>(seconds + 0.5);
+    const std::int64_t whole = std::llround(seconds);
     const std::int64_t hours = whole / 3600, minutes = whole / 60 % 60, rest = whole % 60;
     return hours > 0 ? fmt::format("{}:{:02}:{:02}", hours, minutes, rest)
                      : fmt::format("{}:{:02}", minutes, rest);

@@ -66,8 +66,10 @@ Vec reference_position(const BookRecord& r, std::size_t k, double t0) {
     }
     case 5:
         return {r.x, floor_height, 0};
-    case 6: // stored as pairs left, right
-        return {r.x, floor_height + row_height * static_cast<double>(k / 2), 0};
+    case 6: { // stored as pairs left, right
+        const std::size_t pair = k / 2;
+        return {r.x, floor_height + row_height * static_cast<double>(pair), 0};
+    }
     default:
         return {r.x, r.y, 0};
     }

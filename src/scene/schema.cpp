@@ -21,7 +21,7 @@ void read_sizes(Grains& g, const Value& v, const std::string& path) {
         else if (key == "max")
             g.sizes.max = read_number(item, path + ".max", Unit::length, positive());
         else
-            fail_unknown(item, path + "." + key, {"law", "min", "max"});
+            fail_unknown(item, fmt::format("{}.{}", path, key), {"law", "min", "max"});
     }
     if (g.sizes.max == 0) g.sizes.max = g.sizes.min;
     if (g.sizes.min == 0 || g.sizes.max < g.sizes.min)

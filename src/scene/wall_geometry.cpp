@@ -44,6 +44,7 @@ std::vector<GrainItem> row(const Wall& wall) {
     const double length = norm(along), spacing = spacing_of(wall);
     const int n = static_cast<int>(wall_grain_count(wall));
     std::vector<GrainItem> grains;
+    grains.reserve(static_cast<std::size_t>(n));
     for (int k = 0; k < n; ++k)
         grains.push_back(
             {k == 0 ? from : from + (spacing * k / length) * along, {}, wall.radius, wall.omega});

@@ -102,7 +102,7 @@ TEST_F(Faults, EveryFullDiskIsAnErrorThatNamesItsFile) {
     };
     const json hash = json::parse(run_well(with_out("whole")).out)["state_hash"];
     int resumed = 0;
-    for (const rlim_t size : {200, 1500, 6000, 20000, 60000, 150000, 500000, 1000000}) {
+    for (const rlim_t size : {200U, 1500U, 6000U, 20000U, 60000U, 150000U, 500000U, 1000000U}) {
         fs::remove_all(path("out"));
         const Outcome o = limited_run(size, with_out("out"));
         ASSERT_EQ(o.code, code_of(Exit::io)) << size << o.err;
