@@ -30,10 +30,10 @@ tangential_damping = 0.1
 tangential_stiffness = 100
 [[grains]]
 kind = "lattice"
-radius = { law = "uniform", min = 0.045, max = 0.05 }
+radius = { law = "uniform", min = 0.045, max = 0.0488 }
 lower = [0.1, 0.065]
 counts = [8, 3]
-spacing = [0.0955, 0.0955]
+spacing = [0.0955, 0.0955] # the largest overlap is below the legal one, so that contacts remember
 [[grains]]
 kind = "pour"
 radius = 0.05
