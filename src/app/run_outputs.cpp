@@ -94,7 +94,7 @@ RunOutputs::RunOutputs(const fs::path& folder, const md::Simulation& sim, std::s
 void RunOutputs::open_files(const output::Checkpoint* resume) {
     write_file_atomically(folder_.path() / "scene.toml", scene::write_scene(scene_));
     write_file_atomically(folder_.path() / "plan.txt", plan_text_);
-    log_ = std::make_unique<output::LogWriter>(folder_.path() / "log.csv", log_columns(),
+    log_ = std::make_unique<output::LogWriter>(folder_.path() / "log.csv", log_columns(scene_),
                                                bookmark_in(resume, "log"));
     pictures_ = std::make_unique<output::PictureSeries>(folder_.path() / "pictures", scene_,
                                                         bookmark_in(resume, "pictures"));
