@@ -33,6 +33,12 @@ Checkpoint read_content(std::string_view content) {
 
 } // namespace
 
+std::string bookmark_in(const Checkpoint* checkpoint, const std::string& name) {
+    if (checkpoint == nullptr) return {};
+    const auto found = checkpoint->bookmarks.find(name);
+    return found == checkpoint->bookmarks.end() ? std::string() : found->second;
+}
+
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& c) {
     ByteWriter content;
     content.put_text(c.scene);

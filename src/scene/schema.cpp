@@ -311,8 +311,9 @@ const Table<AnalysisSpec>& analysis_table() {
         Table<AnalysisSpec>(
             "What a run measures of its grains; each writes `NAME.csv`. flow, force-chains and stress add a "
             "row "
-            "per frame; profile, pair-correlation and map hold the average over all frames so far, map as "
-            "pictures `NAME-*.png` too. Pressures are forces per length of a plane, N/m.")
+            "per frame; profile, pair-correlation and map average over frames: their tables are written with "
+            "every checkpoint and at the end, maps as pictures `NAME-*.png` too. A pressure is a force per "
+            "length in the plane, N/m.")
             .text("name", &AnalysisSpec::name, "name of the files")
             .required()
             .choice("kind", &AnalysisSpec::kind, kinds,
