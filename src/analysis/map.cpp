@@ -54,8 +54,8 @@ public:
         for (std::size_t b = 0; b < columns_ * rows_; ++b) {
             const double* sum = sums_.data() + b * fields;
             const double share = sum[0] > 0 ? 1 / sum[0] : 0;
-            const double x = static_cast<double>(b % columns_) + 0.5,
-                         y = static_cast<double>(b / columns_) + 0.5;
+            const std::size_t column = b % columns_, row = b / columns_;
+            const double x = static_cast<double>(column) + 0.5, y = static_cast<double>(row) + 0.5;
             rows.push_back({region_.lower.x + x * bin_width(), region_.lower.y + y * bin_height(),
                             per_frame(sum[0]), share * sum[1], share * sum[2], share * sum[3],
                             per_frame(sum[4]), per_frame(sum[5])});

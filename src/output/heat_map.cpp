@@ -18,8 +18,8 @@ void write_heat_map(const std::filesystem::path& path, const analysis::Grid& gri
     const double tall = (v.bottom - v.top) / static_cast<double>(grid.rows);
     for (std::size_t n = 0; n < grid.values.size(); ++n) {
         if (!(grid.values[n] > 0)) continue;
-        const auto column = static_cast<double>(n % grid.columns),
-                   row = static_cast<double>(n / grid.columns);
+        const std::size_t at_column = n % grid.columns, at_row = n / grid.columns;
+        const auto column = static_cast<double>(at_column), row = static_cast<double>(at_row);
         // On whole pixels: blended edges of neighbouring bins would show the ground between them.
         canvas.rectangle(std::round(v.left + column * wide), std::round(v.bottom - (row + 1) * tall),
                          std::round(v.left + (column + 1) * wide), std::round(v.bottom - row * tall),
