@@ -1,5 +1,11 @@
 #include "app/run_log.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
 namespace sandlane::app {
 
 namespace {
@@ -20,7 +26,10 @@ constexpr Entry entries[] = {
     {"rotational_energy", "J", [](Sim, Obs o) { return o.rotational; }},
     {"elastic_energy", "J", [](Sim, Obs o) { return o.elastic; }},
     {"potential_energy", "J", [](Sim, Obs o) { return o.potential; }},
-    {"total_energy", "J", [](Sim, Obs o) { return o.kinetic + o.rotational + o.elastic + o.potential; }},
+    {"total_energy", "J", [](Sim, Obs o) { return o.energy(); }},
+    {"added_energy", "J", [](Sim s, Obs) { return s.added_energy(); }},
+    {"wall_work", "J", [](Sim s, Obs) { return s.wall_work(); }},
+    {"dissipated_energy", "J", [](Sim s, Obs o) { return s.dissipated(o); }},
     {"momentum_x", "kg m/s", [](Sim, Obs o) { return o.momentum_x; }},
     {"momentum_y", "kg m/s", [](Sim, Obs o) { return o.momentum_y; }},
     {"contacts", "1", [](Sim, Obs o) { return static_cast<double>(o.contacts); }},
@@ -30,17 +39,44 @@ constexpr Entry entries[] = {
     {"removed", "1", [](Sim s, Obs) { return static_cast<double>(s.removed()); }},
 };
 
+struct WallEntry {
+    const char *name, *unit;
+    double md::WallLoad::*value;
+};
+constexpr WallEntry wall_entries[] = {
+    {"force_x", "N", &md::WallLoad::force_x},
+    {"force_y", "N", &md::WallLoad::force_y},
+    {"torque", "N m", &md::WallLoad::torque},
+    {"power", "W", &md::WallLoad::power},
+};
+
+// A name that a column can bear and no other wall has; else the wall's number.
+std::string wall_name(const scene::Scene& scene, std::size_t wall) {
+    const std::string& name = scene.walls[wall].name;
+    const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '_' || c == '-';
+    });
+    const auto same = std::count_if(scene.walls.begin(), scene.walls.end(),
+                                    [&](const scene::Wall& other) { return other.name == name; });
+    return plain && same == 1 ? name : fmt::format("wall_{}", wall);
+}
+
 } // namespace
 
-std::vector<analysis::LogColumn> log_columns() {
+std::vector<analysis::LogColumn> log_columns(const scene::Scene& scene) {
     std::vector<analysis::LogColumn> columns;
     for (const Entry& entry : entries) columns.push_back({entry.name, entry.unit});
+    for (std::size_t wall = 0; wall < scene.walls.size(); ++wall)
+        for (const WallEntry& entry : wall_entries)
+            columns.push_back({fmt::format("{}_{}", wall_name(scene, wall), entry.name), entry.unit});
     return columns;
 }
 
 std::vector<double> log_row(const md::Simulation& simulation, const md::Observables& observed) {
     std::vector<double> row;
     for (const Entry& entry : entries) row.push_back(entry.value(simulation, observed));
+    for (const md::WallLoad& load : observed.walls)
+        for (const WallEntry& entry : wall_entries) row.push_back(load.*entry.value);
     return row;
 }
 

@@ -8,7 +8,8 @@
 
 namespace sandlane::app {
 
-[[nodiscard]] std::vector<analysis::LogColumn> log_columns();
+// Four columns per wall come last: force, torque and power, named after the wall or its number.
+[[nodiscard]] std::vector<analysis::LogColumn> log_columns(const scene::Scene& scene);
 // One number per column.
 [[nodiscard]] std::vector<double> log_row(const md::Simulation& simulation, const md::Observables& observed);
 

@@ -1,5 +1,6 @@
 #include "app/run_outputs.hpp"
 
+#include "app/interval.hpp"
 #include "app/run_log.hpp"
 #include "core/file.hpp"
 #include "output/picture.hpp"
@@ -10,31 +11,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace sandlane::app {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
-
-// Steps between outputs: every <seconds>, by default duration/parts, negative: never.
-std::int64_t interval(double seconds, double duration, double parts, double dt) {
-    if (seconds < 0) return never;
-    if (seconds == 0) seconds = parts > 0 ? duration / parts : -1;
-    if (seconds <= 0) return never;
-    const double steps = seconds / dt;
-    return steps < 1e15 ? std::max<std::int64_t>(1, std::llround(steps)) : never;
-}
-
-std::string bookmark_in(const output::Checkpoint* checkpoint, const std::string& name) {
-    if (checkpoint == nullptr) return {};
-    const auto found = checkpoint->bookmarks.find(name);
-    return found == checkpoint->bookmarks.end() ? std::string() : found->second;
-}
 
 std::string checkpoint_name(std::int64_t step) {
     return fmt::format("{:012}.checkpoint", step);
@@ -81,27 +63,29 @@ RunOutputs::RunOutputs(const fs::path& folder, const md::Simulation& sim, std::s
 void RunOutputs::open_files(const output::Checkpoint* resume) {
     write_file_atomically(folder_.path() / "scene.toml", scene::write_scene(scene_));
     write_file_atomically(folder_.path() / "plan.txt", plan_text_);
-    log_ = std::make_unique<output::LogWriter>(folder_.path() / "log.csv", log_columns(),
-                                               bookmark_in(resume, "log"));
+    log_ = std::make_unique<output::LogWriter>(folder_.path() / "log.csv", log_columns(scene_),
+                                               output::bookmark_in(resume, "log"));
     pictures_ = std::make_unique<output::PictureSeries>(folder_.path() / "pictures", scene_,
-                                                        bookmark_in(resume, "pictures"));
+                                                        output::bookmark_in(resume, "pictures"));
     scene::Scene resolved = scene_;
     resolved.md.dt = dt_;
     if (trajectory_steps_ != never)
         for (const scene::Trajectory kind : scene_.output.trajectory) {
             const std::string name(scene::trajectory_choices()[static_cast<std::size_t>(kind)]);
-            trajectories_[name] =
-                output::make_trajectory_writer(kind, folder_.path(), resolved, bookmark_in(resume, name));
+            trajectories_[name] = output::make_trajectory_writer(kind, folder_.path(), resolved,
+                                                                 output::bookmark_in(resume, name));
         }
+    analyses_.open(folder_.path(), resolved, resume);
     if (replay_steps_ != never)
-        replay_ = std::make_unique<output::ReplayWriter>(folder_.path(), bookmark_in(resume, "replay"));
+        replay_ =
+            std::make_unique<output::ReplayWriter>(folder_.path(), output::bookmark_in(resume, "replay"));
 }
 
 std::int64_t RunOutputs::next_due(std::int64_t step) const {
-    std::int64_t next = never;
+    std::int64_t next = analyses_.next_due(step);
     for (const std::int64_t every :
          {log_steps_, picture_steps_, trajectory_steps_, checkpoint_steps_, replay_steps_})
-        if (every != never) next = std::min(next, (step / every + 1) * every);
+        next = std::min(next, next_multiple(step, every));
     return next;
 }
 
@@ -109,13 +93,14 @@ void RunOutputs::write_due(const md::Simulation& sim, bool all) {
     const auto due = [&](std::int64_t every) { return every != never && (all || sim.step() % every == 0); };
     if (due(log_steps_)) write_log(sim);
     const bool picture = due(picture_steps_), trajectory = due(trajectory_steps_),
-               replay = due(replay_steps_);
-    if (picture || trajectory || replay) {
+               replay = due(replay_steps_), analysis = analyses_.due(sim.step(), all);
+    if (picture || trajectory || replay || analysis) {
         const analysis::Snapshot snapshot = sim.snapshot();
         if (picture) pictures_->write(snapshot);
         if (trajectory)
             for (auto& [name, writer] : trajectories_) writer->write(snapshot);
         if (replay) replay_->write(snapshot);
+        if (analysis) analyses_.write_due(sim, snapshot, all);
     }
     if (due(checkpoint_steps_) && sim.step() > 0) write_checkpoint(sim);
     for (; events_seen_ < sim.events().size(); ++events_seen_) warn(sim.events()[events_seen_]);
@@ -143,6 +128,7 @@ std::string RunOutputs::write_checkpoint(const md::Simulation& sim) {
     c.bookmarks["pictures"] = pictures_->bookmark();
     if (replay_ != nullptr) c.bookmarks["replay"] = replay_->bookmark();
     for (auto& [name, writer] : trajectories_) c.bookmarks[name] = writer->bookmark();
+    analyses_.add_bookmarks(c.bookmarks);
     const fs::path path = folder_.checkpoints() / checkpoint_name(sim.step());
     output::write_checkpoint(path, c);
     if (checkpoints_.empty() || checkpoints_.back() != path) checkpoints_.push_back(path);
@@ -158,6 +144,7 @@ std::string RunOutputs::finish(const md::Simulation& sim, bool stopped, const st
                                double rate) {
     std::string checkpoint = write_checkpoint(sim);
     write_file_atomically(folder_.path() / "summary.json", summary + "\n");
+    analyses_.draw(sim);
     if (stopped) return checkpoint;
     if (pictures_->count() > 0 && scene_.output.movie) write_movie();
     if (scene_.output.report) write_report(sim, rate);

@@ -1,7 +1,8 @@
-// Everything that a run leaves in its folder: log, trajectories, pictures, checkpoints, effective scene,
-// report.
+// Everything that a run leaves in its folder: log, trajectories, pictures, analyses, checkpoints, effective
+// scene, report.
 #pragma once
 
+#include "app/run_analyses.hpp"
 #include "core/progress.hpp"
 #include "md/simulation.hpp"
 #include "output/checkpoint.hpp"
@@ -54,6 +55,7 @@ private:
     std::unique_ptr<output::PictureSeries> pictures_;
     std::map<std::string, std::unique_ptr<output::TrajectoryWriter>> trajectories_; // by name of bookmark
     std::unique_ptr<output::ReplayWriter> replay_;                                  // null without a report
+    RunAnalyses analyses_;
     bool overlap_warned_ = false;
     std::size_t events_seen_ = 0;
     std::vector<std::filesystem::path> checkpoints_; // oldest first

@@ -1,7 +1,8 @@
-// What a run measures of its state: energies, momentum, contacts, overlap, pressure. Reads a state, changes
-// nothing; scalar, with the same formula text as the kernels.
+// What a run measures of its state: energies, momentum, contacts, overlap, pressure, loads on walls. Reads a
+// state, changes nothing; scalar, with the same formula text as the kernels.
 #pragma once
 
+#include "analysis/contacts.hpp"
 #include "md/plan.hpp"
 #include "md/state.hpp"
 #include "md/walls.hpp"
@@ -12,13 +13,24 @@
 
 namespace sandlane::md {
 
+// What the grains do to one wall of the scene.
+struct WallLoad {
+    double force_x = 0, force_y = 0; // N
+    double torque = 0;               // N m, about Walls::pivot
+    double power = 0;                // W, given by the wall to the grains
+};
+
 struct Observables {
-    double kinetic = 0, rotational = 0, elastic = 0, potential = 0; // J
-    double momentum_x = 0, momentum_y = 0;                          // kg m/s
-    double largest_overlap = 0;                                     // of the smaller radius
-    double largest_speed = 0;                                       // m/s
+    double kinetic = 0, rotational = 0, elastic = 0; // J
+    double potential = 0;                            // J, of unwrapped positions: no jump at a periodic side
+    double momentum_x = 0, momentum_y = 0;           // kg m/s
+    double largest_overlap = 0;                      // of the smaller radius
+    double largest_speed = 0;                        // m/s
     std::int64_t contacts = 0, wall_contacts = 0, grains = 0;
     std::vector<double> pressure; // per storage index: trace of the contact stress over two (8.1)
+    std::vector<WallLoad> walls;  // per wall of the scene
+
+    [[nodiscard]] double energy() const { return kinetic + rotational + elastic + potential; } // J
 };
 
 // What contacts remember of each other, of laws that do.
@@ -29,5 +41,14 @@ struct ContactMemories {
 [[nodiscard]] Observables observe(const scene::Scene& scene, const Plan& plan, const State& state,
                                   const Walls& walls, const std::vector<double>& coefficients,
                                   const ContactMemories& memories);
+
+// All contacts, with storage indices in place of those of a snapshot and in no particular order.
+[[nodiscard]] analysis::Contacts contacts(const scene::Scene& scene, const Plan& plan, const State& state,
+                                          const Walls& walls, const std::vector<double>& coefficients,
+                                          const ContactMemories& memories);
+
+// Kinetic, rotational and potential energy of one grain, J.
+[[nodiscard]] double grain_energy(const scene::Scene& scene, const Plan& plan, const State& state,
+                                  std::size_t i);
 
 } // namespace sandlane::md

@@ -52,6 +52,7 @@ std::string Simulation::serialise() const {
     w.put(static_cast<std::int32_t>(plan_.neighbours));
     w.put(removed_);
     w.put(delayed_);
+    for (const double energy : {initial_energy_, added_energy_, wall_work_, wall_power_}) w.put(energy);
     w.put(static_cast<std::int32_t>(state_.order));
     w.put(static_cast<std::int32_t>(state_.dofs));
     for_columns(state_, [&](const auto& column) { w.put_array(column.data(), column.size()); });
@@ -79,6 +80,8 @@ void Simulation::restore(const std::string& bytes) {
     const auto method = static_cast<scene::NeighbourMethod>(r.get<std::int32_t>());
     removed_ = r.get<std::int64_t>();
     delayed_ = r.get<std::int64_t>();
+    for (double* energy : {&initial_energy_, &added_energy_, &wall_work_, &wall_power_})
+        *energy = r.get<double>();
     if (r.get<std::int32_t>() != state_.order || r.get<std::int32_t>() != state_.dofs) damaged();
     for_columns(state_, [&](auto& column) { r.get_array(column); });
     state_.adopt(plan_);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace sandlane::md {
@@ -75,6 +76,8 @@ void Simulation::start(const std::vector<scene::GrainState>& grains) {
             state_.value(i, 2, 2) = half_dt2 * (f[2] * state_.spin_factor[i] + scene_.domain.gravity.z);
     }
     state_.force.fill(0.0);
+    wall_work_ = 0;
+    initial_energy_ = observe().energy();
 }
 
 // ---- the time step
@@ -155,6 +158,7 @@ void Simulation::forces_and_motion(bool predict) {
     });
     check_overlap(*std::max_element(tile_overlaps_.begin(), tile_overlaps_.end()));
     check_walls();
+    add_wall_work();
     ++force_step_;
     if (!predict) return;
     state_.record.swap(state_.next_record);
@@ -221,6 +225,7 @@ void Simulation::compute_forces() {
         pair_forces();
         wall_forces();
     }
+    add_wall_work();
     ++force_step_;
 }
 
@@ -301,6 +306,13 @@ void Simulation::check_walls() const {
          "the material, lower md.dt, or check the wall's motion.",
          step_, time(), state_.id[static_cast<std::size_t>(worst.grain)],
          scene_.walls[static_cast<std::size_t>(worst.wall)].name, worst.largest_ratio);
+}
+
+void Simulation::add_wall_work() {
+    double power = 0;
+    for (const WallResult& r : wall_results_) power += r.power;
+    wall_work_ += 0.5 * plan_.dt * (wall_power_ + power);
+    wall_power_ = power;
 }
 
 simd::MotionView Simulation::motion_view() {
@@ -410,6 +422,7 @@ void Simulation::insert_due() {
         const std::size_t i = state_.size() - 1;
         state_.value(i, 0, 2) = 0.5 * plan_.dt * plan_.dt * scene_.domain.gravity.x;
         state_.value(i, 1, 2) = 0.5 * plan_.dt * plan_.dt * scene_.domain.gravity.y;
+        added_energy_ += grain_energy(scene_, plan_, state_, i);
         ++next_waiting_;
         inserted = true;
     }
@@ -437,6 +450,7 @@ void Simulation::handle_outside() {
                  "add walls, or set "
                  "domain.outside = \"remove\".",
                  step_, time(), state_.id[i], r[0], r[1]);
+        added_energy_ -= grain_energy(scene_, plan_, state_, i);
         ++removed_;
     }
     walls_.invalidate(state_);
@@ -513,6 +527,13 @@ std::vector<std::size_t> by_id(const State& state) {
     return order;
 }
 
+// The tangential force stays: both forces and the tangent change sign.
+void swap_partners(analysis::Contact& c) {
+    std::swap(c.i, c.j);
+    c.normal = -1.0 * c.normal;
+    c.force = -1.0 * c.force;
+}
+
 double into(double x, double lower, double period) {
     return period > 0 ? x - period * std::floor((x - lower) / period) : x;
 }
@@ -547,6 +568,26 @@ analysis::Snapshot Simulation::snapshot() const {
     }
     s.walls = walls_.shapes(time());
     return s;
+}
+
+analysis::Contacts Simulation::contacts() const {
+    Walls now = walls_;
+    now.move_to(time());
+    const ContactMemory pairs = lists_.memory(state_), walls = walls_.memory(state_);
+    analysis::Contacts all = md::contacts(scene_, plan_, state_, now, coefficients_, {pairs, walls});
+    std::vector<std::int32_t> place(state_.size()); // storage index -> index in the snapshot
+    std::int32_t next = 0;
+    for (const std::size_t i : by_id(state_)) place[i] = next++;
+    for (analysis::Contact& c : all) {
+        c.i = place[static_cast<std::size_t>(c.i)];
+        if (c.with_wall()) continue;
+        c.j = place[static_cast<std::size_t>(c.j)];
+        if (c.i > c.j) swap_partners(c);
+    }
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.i, a.j, a.wall) < std::tie(b.i, b.j, b.wall);
+    });
+    return all;
 }
 
 Hash128 Simulation::state_hash() const {

@@ -39,12 +39,24 @@ public:
     // Energies, contacts and overlaps of the present state; see observables.hpp.
     [[nodiscard]] Observables observe() const;
     [[nodiscard]] analysis::Snapshot snapshot() const;
+    // The contacts of snapshot().
+    [[nodiscard]] analysis::Contacts contacts() const;
     // 128-bit hash over the id-ordered state: equal hashes mean equal bits.
     [[nodiscard]] Hash128 state_hash() const;
 
     // Forces of the present state [particle][force_fields] by the plan's kernels, or by another table
     // (reference).
     [[nodiscard]] std::vector<double> forces(simd::Isa isa, scene::NeighbourMethod method) const;
+
+    // Work of moving walls on the grains since the start, J: trapezoidal sum over all steps.
+    [[nodiscard]] double wall_work() const { return wall_work_; }
+    // Energy that poured grains brought less what removed ones took, J.
+    [[nodiscard]] double added_energy() const { return added_energy_; }
+    // What the contacts have taken so far, J: initial + added energy + work of the walls - present energy.
+    // Includes the elastic energy left when a law's force is cut at zero, and the error of the integrator.
+    [[nodiscard]] double dissipated(const Observables& now) const {
+        return initial_energy_ + added_energy_ + wall_work_ - now.energy();
+    }
 
     [[nodiscard]] std::int64_t removed() const { return removed_; }
     [[nodiscard]] std::int64_t delayed() const { return delayed_; }
@@ -68,6 +80,7 @@ private:
     void pair_forces();
     void wall_forces();
     void check_walls() const;
+    void add_wall_work();
     void compute_forces();
     [[nodiscard]] double* add_tile_forces(std::size_t tile);
     [[nodiscard]] md::WallInput wall_input(double* force, std::size_t first) const;
@@ -99,6 +112,7 @@ private:
     std::size_t next_waiting_ = 0;
     std::int64_t step_ = 0, force_step_ = 0, removed_ = 0, delayed_ = 0;
     double largest_speed_ = 0;
+    double initial_energy_ = 0, added_energy_ = 0, wall_work_ = 0, wall_power_ = 0;
     std::vector<std::string> events_;
     bool sorted_ = false;
 };

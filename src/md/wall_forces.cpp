@@ -43,8 +43,12 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
         force[0] += f.x;
         force[1] += f.y;
         force[2] += f.tangential;
+        result.power += f.x * c.velocity.x + f.y * c.velocity.y - f.tangential * c.spin;
         const double ratio = f.overlap / r[5];
-        if (ratio > result.largest_ratio) result = {ratio, static_cast<std::int64_t>(i), element.wall};
+        if (ratio <= result.largest_ratio) continue;
+        result.largest_ratio = ratio;
+        result.grain = static_cast<std::int64_t>(i);
+        result.wall = element.wall;
     }
     return result;
 }
@@ -219,7 +223,9 @@ WallResult Walls::add_forces(WallInput input, std::size_t tile, std::size_t grai
             if (!box_reaches(elements_[e], {r[0], r[1], 0}, r[5])) continue;
             const NearWall pair{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(e)};
             const WallResult one = kernel_(*this, input, &pair, &pair + 1);
+            const double power = worst.power + one.power;
             if (one.largest_ratio > worst.largest_ratio) worst = one;
+            worst.power = power;
         }
     return worst;
 }

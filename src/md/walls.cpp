@@ -206,6 +206,14 @@ WallContact Walls::contact(std::size_t element, Vec p) const {
     return c;
 }
 
+Vec Walls::pivot(const WallElement& element) const {
+    if (element.motion < 0) return {};
+    const auto m = static_cast<std::size_t>(element.motion);
+    const scene::MotionKind kind = motions_[m].kind;
+    if (kind != scene::MotionKind::rotate && kind != scene::MotionKind::planetary) return {};
+    return rigid_[m].pivot + rigid_[m].shift;
+}
+
 std::vector<analysis::WallShape> Walls::shapes(double time) const {
     Walls now = *this;
     now.move_to(time);

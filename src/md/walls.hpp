@@ -42,6 +42,7 @@ struct WallResult {
     double largest_ratio = 0; // overlap over the grain's radius
     std::int64_t grain = -1;  // where, storage index
     int wall = -1;
+    double power = 0; // W, given by moving walls to the grains
 };
 
 // One near grain and element of the candidate list.
@@ -79,6 +80,8 @@ public:
     // Positions and velocities of the walls at time t.
     void move_to(double time);
     [[nodiscard]] WallContact contact(std::size_t element, Vec position) const;
+    // What torques on the element refer to: the centre that its motion turns about, else the origin.
+    [[nodiscard]] Vec pivot(const WallElement& element) const;
 
     // The grains moved by at most `distance` since the last call.
     void account(double distance) { budget_ -= distance; }

@@ -12,7 +12,7 @@ namespace sandlane::output {
 namespace {
 
 constexpr std::string_view magic = "SANDLANE";
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 constexpr std::size_t header_size = magic.size() + sizeof(std::uint32_t) + 3 * sizeof(std::uint64_t);
 
 Checkpoint read_content(std::string_view content) {
@@ -32,6 +32,12 @@ Checkpoint read_content(std::string_view content) {
 }
 
 } // namespace
+
+std::string bookmark_in(const Checkpoint* checkpoint, const std::string& name) {
+    if (checkpoint == nullptr) return {};
+    const auto found = checkpoint->bookmarks.find(name);
+    return found == checkpoint->bookmarks.end() ? std::string() : found->second;
+}
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& c) {
     ByteWriter content;

@@ -18,6 +18,9 @@ struct Checkpoint {
     std::map<std::string, std::string> bookmarks; // output -> where it continues
 };
 
+// Empty without a checkpoint, or if it knows no such output.
+[[nodiscard]] std::string bookmark_in(const Checkpoint* checkpoint, const std::string& name);
+
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
 // Throws Error(invalid_input) for a missing file and Error(io) for one that is damaged or of another version.

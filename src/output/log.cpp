@@ -23,6 +23,14 @@ std::string header(const std::vector<LogColumn>& columns) {
     return text + '\n';
 }
 
+void append_row(std::string& text, const std::vector<double>& row) {
+    for (const double value : row) {
+        append(text, value);
+        text += ',';
+    }
+    text.back() = '\n';
+}
+
 template <class Cell> void for_cells(std::string_view line, const Cell& cell) {
     while (true) {
         const std::size_t comma = line.find(',');
@@ -52,6 +60,12 @@ std::vector<double> parse_row(std::string_view line, const std::filesystem::path
 
 } // namespace
 
+std::string log_text(const Log& table) {
+    std::string text = header(table.columns);
+    for (const std::vector<double>& row : table.rows) append_row(text, row);
+    return text;
+}
+
 LogWriter::LogWriter(const std::filesystem::path& path, const std::vector<LogColumn>& columns,
                      const std::string& bookmark)
     : file_(path, length_in(bookmark, path)), columns_(columns.size()) {
@@ -66,11 +80,7 @@ void LogWriter::write(std::span<const std::vector<double>> rows) {
         if (row.size() != columns_)
             fail(Exit::internal, "{}: a row of {} numbers for {} columns", file_.path().string(), row.size(),
                  columns_);
-        for (const double value : row) {
-            append(text, value);
-            text += ',';
-        }
-        text.back() = '\n';
+        append_row(text, row);
     }
     file_.write(text);
     file_.flush();

@@ -12,6 +12,9 @@
 
 namespace sandlane::output {
 
+// The same as one text. Every row has one number per column.
+[[nodiscard]] std::string log_text(const analysis::Log& table);
+
 class LogWriter {
 public:
     // bookmark: empty for a new file, else what bookmark() returned before; the rows after it are cut off.

@@ -101,13 +101,15 @@ Scene scene_from(const Value& root) {
             read_list(scene.motions, motion_table(), value, key);
         else if (key == "md")
             md_table().read(scene.md, value, key);
+        else if (key == "analysis")
+            read_list(scene.analyses, analysis_table(), value, key);
         else if (key == "output")
             output_table().read(scene.output, value, key);
         else
             rest.members.push_back({key, value});
     }
-    std::vector<std::string> known = {"domain", "materials", "pairs", "grains",
-                                      "walls",  "motions",   "md",    "output"};
+    std::vector<std::string> known = {"domain",  "materials", "pairs",    "grains", "walls",
+                                      "motions", "md",        "analysis", "output"};
     for (const Field<Scene>& field : scene_table().fields()) known.push_back(field.name);
     for (const auto& [key, value] : rest.members) {
         bool found = false;
@@ -152,6 +154,7 @@ std::string write_scene(const Scene& scene) {
     write_list(text, "walls", wall_table(), scene.walls);
     write_list(text, "motions", motion_table(), scene.motions);
     text += "\n[md]\n" + md_table().write(scene.md);
+    write_list(text, "analysis", analysis_table(), scene.analyses);
     text += "\n[output]\n" + output_table().write(scene.output);
     return text;
 }

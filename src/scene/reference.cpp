@@ -61,7 +61,7 @@ std::string scene_reference() {
            pair_table().reference("[[pairs]]") + grains_table().reference("[[grains]]") +
            item_table().reference("items of [[grains]] and [[walls]]") + wall_table().reference("[[walls]]") +
            motion_table().reference("[[motions]]") + md_table().reference("[md]") +
-           output_table().reference("[output]");
+           analysis_table().reference("[[analysis]]") + output_table().reference("[output]");
 }
 
 } // namespace sandlane::scene

@@ -148,6 +148,25 @@ struct Md {
     Body body = Body::sphere;
 };
 
+enum class Axis { x, y };
+enum class AnalysisKind {
+#define ANALYSIS(name, choice) name,
+#include "scene/analyses.def"
+};
+
+// One [[analysis]]; a kind reads only its own keys.
+struct AnalysisSpec {
+    std::string name;
+    AnalysisKind kind = AnalysisKind::profile;
+    double every = 0; // s; 0: duration/100
+    double start = 0; // s: frames before it are left out
+    Vec from, to; // flow: ends of the line; else: corners of the region, the domain where they are the same
+    Axis axis = Axis::y;   // profile
+    std::int64_t bins = 0; // 0: chosen by the kind
+    double range = 0;      // pair-correlation: largest distance, m; 0: half the shorter side
+    double threshold = 1;  // force-chains, map: in units of the mean pressure
+};
+
 struct Output {
     double log_every = 0;        // s; 0: duration/200
     double picture_every = 0;    // s; 0: duration/20, negative: none
@@ -172,6 +191,7 @@ struct Scene {
     std::vector<Wall> walls;
     std::vector<Motion> motions;
     Md md;
+    std::vector<AnalysisSpec> analyses;
     Output output;
 };
 

@@ -328,6 +328,44 @@ const Table<Md>& md_table() {
     return table;
 }
 
+const Table<AnalysisSpec>& analysis_table() {
+    static const Choices kinds = {
+#define ANALYSIS(name, choice) choice,
+#include "scene/analyses.def"
+    };
+    static const Table<AnalysisSpec> table =
+        Table<AnalysisSpec>(
+            "What a run measures of its grains; each writes `NAME.csv`. flow, force-chains and stress add a "
+            "row "
+            "per frame; profile, pair-correlation and map average over frames: their tables are written with "
+            "every checkpoint and at the end, maps as pictures `NAME-*.png` too. A pressure is a force per "
+            "length in the plane, N/m.")
+            .text("name", &AnalysisSpec::name, "name of the files")
+            .required()
+            .choice("kind", &AnalysisSpec::kind, kinds,
+                    "strips across an axis; g(r); force chains; bins in the plane; what crosses a line; "
+                    "stress tensor, contact number and packing fraction of a region")
+            .required()
+            .number("every", &AnalysisSpec::every, Unit::time, not_negative(),
+                    "time between frames; 0: duration/100")
+            .number("start", &AnalysisSpec::start, Unit::time, not_negative(),
+                    "frames before it are left out")
+            .vector("from", &AnalysisSpec::from, Unit::length,
+                    "flow: where the line starts; else: a corner of the region")
+            .vector("to", &AnalysisSpec::to, Unit::length,
+                    "flow: where the line ends, from its left to its right counts positive; else: the other "
+                    "corner, the same as from: the whole domain")
+            .choice("axis", &AnalysisSpec::axis, {"x", "y"}, "profile: axis across the strips")
+            .integer("bins", &AnalysisSpec::bins, between(0, 4096),
+                     "profile: strips (0: 50); pair-correlation: distances (0: 100); map: columns (0: one "
+                     "mean diameter wide)")
+            .number("range", &AnalysisSpec::range, Unit::length, not_negative(),
+                    "pair-correlation: largest distance; 0: half the shorter side")
+            .number("threshold", &AnalysisSpec::threshold, Unit::none, not_negative(),
+                    "force-chains, map: pressure that counts as load, in units of the mean over all grains");
+    return table;
+}
+
 const Table<Output>& output_table() {
     static const Table<Output> table =
         Table<Output>("What a run writes, and how often in simulated time.")

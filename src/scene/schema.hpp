@@ -86,6 +86,7 @@ const Table<GrainItem>& item_table();
 const Table<Wall>& wall_table();
 const Table<Motion>& motion_table();
 const Table<Md>& md_table();
+const Table<AnalysisSpec>& analysis_table();
 const Table<Output>& output_table();
 const Table<Scene>& scene_table(); // the keys outside any table
 

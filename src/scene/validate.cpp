@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace sandlane::scene {
@@ -146,6 +148,44 @@ struct Validator {
             if (m.name == w.motion) return;
         reject("{}.motion: \"{}\" is not the name of a [[motions]] table", path, w.motion);
     }
+
+    // The name becomes that of a file.
+    void check_analysis_name(std::size_t n, const std::string& path) const {
+        const std::string& name = scene.analyses[n].name;
+        for (std::size_t other = 0; other < n; ++other)
+            if (scene.analyses[other].name == name) reject("{}.name: \"{}\" is used twice", path, name);
+        const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+            return std::isalnum(c) != 0 || c == '_' || c == '-';
+        });
+        if (name.empty() || !plain || name.size() > 100)
+            reject("{}.name: \"{}\" cannot name a file; use up to 100 letters, digits, - and _", path, name);
+        if (name == "log") reject("{}.name: \"log\" is the name of another output", path);
+    }
+
+    void check_analysis(const AnalysisSpec& a, const std::string& path) const {
+        const bool whole = a.from == a.to;
+        if (a.kind == AnalysisKind::flow) {
+            if (whole)
+                reject("{}.to: is the same as from = [{}, {}]; a line has two ends", path, a.from.x,
+                       a.from.y);
+            return;
+        }
+        if (!whole && (a.from.x == a.to.x || a.from.y == a.to.y))
+            reject("{}.to: [{}, {}] and from = [{}, {}] span no area", path, a.to.x, a.to.y, a.from.x,
+                   a.from.y);
+        if (a.kind == AnalysisKind::pair_correlation) check_range(a, path, whole);
+    }
+
+    // Beyond it the number of pairs of an ideal gas is not known in closed form.
+    void check_range(const AnalysisSpec& a, const std::string& path, bool whole) const {
+        const Vec size = whole ? scene.domain.upper - scene.domain.lower : a.to - a.from;
+        const double x = std::abs(size.x) * (whole && scene.domain.periodic[0] ? 0.5 : 1);
+        const double y = std::abs(size.y) * (whole && scene.domain.periodic[1] ? 0.5 : 1);
+        if (a.range > std::min(x, y))
+            reject("{}.range: {} m is out of range; allowed: up to {} m, the shorter side, half of it if "
+                   "periodic",
+                   path, a.range, std::min(x, y));
+    }
 };
 
 } // namespace
@@ -158,6 +198,10 @@ void validate(const Scene& scene, const std::string& file) {
         v.check_grains(scene.grains[n], fmt::format("grains[{}]", n));
     for (std::size_t n = 0; n < scene.walls.size(); ++n)
         v.check_wall(scene.walls[n], fmt::format("walls[{}]", n));
+    for (std::size_t n = 0; n < scene.analyses.size(); ++n) {
+        v.check_analysis_name(n, fmt::format("analysis[{}]", n));
+        v.check_analysis(scene.analyses[n], fmt::format("analysis[{}]", n));
+    }
     for (std::size_t n = 0; n < scene.motions.size(); ++n)
         for (std::size_t other = 0; other < n; ++other)
             if (scene.motions[other].name == scene.motions[n].name)

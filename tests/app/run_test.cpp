@@ -180,6 +180,20 @@ TEST_F(Runs, ResumedRunHasEveryFileOfTheUndisturbed) {
     EXPECT_TRUE(shown("parts") == shown("whole"));
 }
 
+TEST_F(Runs, ResumedAnalysesHaveTheBytesOfTheUndisturbed) {
+    write("scene.toml", box_scene +
+                            "[[analysis]]\nname = \"load\"\nkind = \"map\"\nevery = 0.01\nstart = 0.03\n"
+                            "[[analysis]]\nname = \"fall\"\nkind = \"flow\"\nevery = 0.005\n"
+                            "from = [0.08, 0.03]\nto = [0, 0.03]\n"
+                            "[[analysis]]\nname = \"chains\"\nkind = \"force-chains\"\n");
+    run_well({"run", "scene.toml", "--out", "whole", "--quiet"});
+    run_well({"run", "scene.toml", "--out", "parts", "--steps", "7001", "--quiet"});
+    run_well({"run", "--resume", latest_checkpoint("parts"), "--threads", "2", "--isa", "scalar", "--quiet"});
+    for (const char* name : {"load.csv", "load-pressure.png", "load-chains.png", "load-outside.png",
+                             "fall.csv", "chains.csv", "log.csv"})
+        EXPECT_EQ(read(std::string("parts/") + name), read(std::string("whole/") + name)) << name;
+}
+
 class Interruptions : public Runs {
 protected:
     Interruptions() {

@@ -3,53 +3,17 @@
 #include "core/rng.hpp"
 #include "md/simulation.hpp"
 
+#include "md/support.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 using namespace sandlane;
+using namespace sandlane::test;
 
 namespace {
-
-scene::Scene empty_scene() {
-    scene::Scene s;
-    s.domain.lower = {-1, -1, 0};
-    s.domain.upper = {1, 1, 0};
-    s.materials = {scene::Material{}};
-    s.materials[0].name = "m";
-    s.md.normal = scene::NormalLaw::linear_dashpot;
-    s.md.tangential = scene::TangentialLaw::none;
-    s.md.duration = 1;
-    return s;
-}
-
-scene::GrainState grain(std::int64_t id, Vec position, Vec velocity, double radius, double mass,
-                        double omega = 0) {
-    scene::GrainState g;
-    g.id = id;
-    g.position = position;
-    g.velocity = velocity;
-    g.radius = radius;
-    g.mass = mass;
-    g.omega = omega;
-    return g;
-}
-
-md::Simulation simulate(const scene::Scene& s, const std::vector<scene::GrainState>& grains) {
-    const md::Needs needs = md::analyse(s, grains);
-    return {s, grains, needs,
-            md::make_plan(s, needs, md::derive(s, needs), simd::available_isas().back(), {1, "test"})};
-}
-
-scene::Wall floor_plane() {
-    scene::Wall w;
-    w.name = "floor";
-    w.kind = scene::WallKind::plane;
-    w.points = {{0, 0, 0}};
-    w.normal = {0, 1, 0};
-    return w;
-}
 
 // Relative normal velocity after a head-on collision over the one before.
 double restitution(const scene::Scene& s, double radius, double mass, std::int64_t steps) {

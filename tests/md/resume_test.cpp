@@ -67,6 +67,8 @@ TEST(Resume, SameBitsAsUndisturbed) {
         EXPECT_EQ(second.state_hash(), first.state_hash());
         second.run(1500 - 613);
         EXPECT_EQ(second.state_hash(), straight.state_hash());
+        EXPECT_EQ(second.wall_work(), straight.wall_work());
+        EXPECT_NE(straight.wall_work(), 0);
         EXPECT_EQ(second.removed(), straight.removed());
     }
 }

@@ -1,0 +1,17 @@
+// Times between outputs, in steps.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace sandlane::app {
+
+inline constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
+// Every `seconds`, by default duration/parts; negative, or parts = 0: never.
+[[nodiscard]] std::int64_t interval(double seconds, double duration, double parts, double dt);
+
+// The first multiple of `every` above `step`.
+[[nodiscard]] std::int64_t next_multiple(std::int64_t step, std::int64_t every);
+
+} // namespace sandlane::app
