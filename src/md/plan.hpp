@@ -52,6 +52,10 @@ struct Plan {
     std::vector<std::string> chosen, skipped; // one reason per line
 };
 
+[[nodiscard]] constexpr bool is_lattice(scene::NeighbourMethod method) {
+    return method == scene::NeighbourMethod::lattice || method == scene::NeighbourMethod::lattice_half;
+}
+
 [[nodiscard]] Needs analyse(const scene::Scene& scene, const std::vector<scene::GrainState>& grains);
 [[nodiscard]] Derived derive(const scene::Scene& scene, const Needs& needs);
 

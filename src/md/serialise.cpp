@@ -108,9 +108,7 @@ void Simulation::restore(const std::string& bytes) {
     lists_.adopt(memory());
     walls_.adopt(memory());
     if (!r.at_end()) damaged();
-    const bool on_lattice = plan_.neighbours == scene::NeighbourMethod::lattice ||
-                            plan_.neighbours == scene::NeighbourMethod::lattice_half;
-    if (on_lattice && method == scene::NeighbourMethod::link_cells) use_link_cells();
+    if (is_lattice(plan_.neighbours) && method == scene::NeighbourMethod::link_cells) use_link_cells();
     if (method != plan_.neighbours) damaged();
     force_step_ = step_ + 1;
     sorted_ = true;
