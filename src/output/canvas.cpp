@@ -28,6 +28,7 @@ struct Range {
     int first, last;
 };
 Range pixels_between(double from, double to, int low, int high) {
+    if (!(from <= to)) return {low, low}; // also for what is not a number
     const double first = std::clamp(std::floor(from), static_cast<double>(low), static_cast<double>(high));
     const double last = std::clamp(std::ceil(to), static_cast<double>(low), static_cast<double>(high));
     return {static_cast<int>(first), static_cast<int>(last)};

@@ -121,7 +121,7 @@ class Determinism : public testing::TestWithParam<Variant> {};
 
 TEST_P(Determinism, SameBitsForEveryIsaAndThreadCount) {
     const Variant& v = GetParam();
-    const int rows = v.method == NeighbourMethod::brute_force ? 8 : 30; // all pairs: a smaller system will do
+    const int rows = v.method == NeighbourMethod::brute_force ? 4 : 30; // all pairs: a smaller system will do
     scene::Scene s = test::lattice_scene(24, rows);
     auto grains = test::lattice_grains(24, rows, v.equal_radii);
     s.md.normal = v.normal;
