@@ -4,6 +4,7 @@
 #pragma once
 
 #include "laws/count.hpp"
+#include "simd/records.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,13 +15,6 @@
 namespace sandlane::simd {
 
 enum class Isa { scalar, sse4_2, avx2, avx512 };
-
-// Record of a particle for pair kernels: eight doubles, 64 bytes, at the predicted time. Everything a law
-// needs of a pair is a difference of fields 0-3 or a sum of fields 4-7.
-//   0 x  1 y  2 vx  3 vy  |  4 R omega  5 R  6 1/R  7 unused
-inline constexpr int record_fields = 8;
-// Force accumulator of a particle: Fx, Fy, sum of f_t (torque = R sum f_t), unused.
-inline constexpr int force_fields = 4;
 
 // What a pair kernel reads and writes. Periods of open sides: period 0, half period infinite.
 struct PairView {

@@ -9,10 +9,6 @@ namespace sandlane::analysis {
 
 namespace {
 
-double cross(Vec a, Vec b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 Vec unwrapped(const Snapshot& s, std::size_t i) {
     const Vec size = s.upper - s.lower;
     return {s.x[i] + s.image_x[i] * size.x, s.y[i] + s.image_y[i] * size.y, 0};
@@ -22,7 +18,7 @@ Vec unwrapped(const Snapshot& s, std::size_t i) {
 // so that a path that stops on it crosses once.
 int direction(Vec p, Vec q, Vec from, Vec to) {
     const Vec along = to - from;
-    const double before = cross(along, p - from), after = cross(along, q - from);
+    const double before = cross(along, p - from).z, after = cross(along, q - from).z;
     if ((before >= 0) == (after >= 0)) return 0;
     const Vec at = p + (before / (before - after)) * (q - p);
     const double along_line = dot(along, at - from);

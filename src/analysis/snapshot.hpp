@@ -2,6 +2,7 @@
 // readers.
 #pragma once
 
+#include "core/quaternion.hpp"
 #include "core/vec.hpp"
 
 #include <cstdint>
@@ -12,9 +13,9 @@ namespace sandlane::analysis {
 
 // A wall as it stands at the time of the snapshot, for pictures and files.
 struct WallShape {
-    enum class Kind { segment, arc, disc };
+    enum class Kind { segment, arc, disc, triangle }; // triangle: 3D, curved walls as many
     Kind kind = Kind::segment;
-    Vec a, b;                            // segment: end points
+    Vec a, b, c;                         // segment: end points; triangle: corners
     Vec centre;                          // arc, disc
     double radius = 0;                   // arc, disc
     double angle_from = 0, angle_to = 0; // arc, counter-clockwise
@@ -28,15 +29,20 @@ struct WallShape {
 struct Snapshot {
     std::int64_t step = 0;
     double time = 0; // s
+    int dimension = 2;
     Vec lower, upper;
-    bool periodic_x = false, periodic_y = false;
+    bool periodic_x = false, periodic_y = false, periodic_z = false;
 
-    // Free grains, one entry each, ordered by id. SI units; angle in rad; pressure in Pa (N/m for body =
-    // disc): trace of the contact stress over two (md-spheres 8.1), compression positive.
+    // Free grains, one entry each, ordered by id. SI units; angle in rad; pressure: trace of the contact
+    // stress over the dimension (docs/physics.md 11), compression positive, N/m in 2D and Pa in 3D.
     std::vector<std::int64_t> id;
     std::vector<double> x, y, angle, vx, vy, omega, radius, mass, pressure;
     std::vector<int> material;
     std::vector<int> image_x, image_y; // periodic images crossed
+    // 3D, else empty: omega is the z component of the angular velocity, angle stays 0.
+    std::vector<double> z, vz, omega_x, omega_y;
+    std::vector<int> image_z;
+    std::vector<Quaternion> orientation; // empty unless the run follows it
 
     std::vector<WallShape> walls;
 

@@ -17,6 +17,9 @@ struct Vec {
 [[nodiscard]] constexpr double dot(Vec a, Vec b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+[[nodiscard]] constexpr Vec cross(Vec a, Vec b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 [[nodiscard]] inline double norm(Vec a) {
     return std::sqrt(dot(a, a));
 }

@@ -1,5 +1,5 @@
-// Geometry and force of one contact of two discs (docs/physics.md 2), the one text that pair kernels, walls,
-// references and analyses share.
+// Geometry and force of one contact of two grains (docs/physics.md 2), in the plane and in space, the one
+// text that pair kernels, walls, references and analyses share.
 #pragma once
 
 #include "laws/normal.hpp"
@@ -20,7 +20,8 @@ template <class R> SANDLANE_INLINE PairCoefficients<R> coefficients_from(const d
 
 // Numbers that a contact of these laws remembers, at most.
 inline constexpr int most_memory = 4;
-template <class Tangential> inline constexpr int memory_of = Tangential::memory;
+template <class Tangential, int dimension = 2>
+inline constexpr int memory_of = dimension == 3 ? Tangential::memory_in_space : Tangential::memory;
 
 // Relative state of j seen from i: d = r_j - r_i (minimum image), dv = v_j - v_i, sums over both grains.
 template <class R> struct PairState {
@@ -42,9 +43,9 @@ template <class R> struct PairForce {
 template <class Normal, class Tangential, class R>
 SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoefficients<R>& c,
                                         R* memory = nullptr, const R& elapsed = R(0.0)) {
-    const R distance = sqrt(s.dx * s.dx + s.dy * s.dy);
+    const R distance = sqrt(s.dx * s.dx + s.dy * s.dy), inverse = R(1.0) / distance;
     const R overlap = s.radius_sum - distance;
-    const R nx = s.dx / distance, ny = s.dy / distance;
+    const R nx = s.dx * inverse, ny = s.dy * inverse;
     const R rate = -(s.dvx * nx + s.dvy * ny);
     const auto touching = overlap > R(0.0);
     const R safe_overlap = select(touching, overlap, R(0.0));
@@ -57,6 +58,43 @@ SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoeffic
     const R zero(0.0);
     return {select(touching, -(f_n * nx) - f_t * ny, zero), select(touching, f_t * nx - f_n * ny, zero),
             select(touching, f_t, zero), overlap};
+}
+
+// ---- in space
+
+template <class R> struct SpatialState {
+    Vector<R> d, dv;
+    Vector<R> spin; // R_i omega_i + R_j omega_j
+    Vector<R> turn; // omega_i + omega_j; only laws that need the twist look at it
+    R radius_sum;   // R_i + R_j
+    R inverse_reduced_radius;
+};
+
+// Force on i; j gets the opposite force. Torque over the lever arm, n x f_t, is the same for both (1.7).
+template <class R> struct SpatialForce {
+    Vector<R> force, turning;
+    R overlap;
+};
+
+template <class Normal, class Tangential, class R>
+SANDLANE_INLINE SpatialForce<R> pair_force(const SpatialState<R>& s, const PairCoefficients<R>& c,
+                                           R* memory = nullptr, const R& elapsed = R(0.0)) {
+    const R zero(0.0), distance = sqrt(dot(s.d, s.d));
+    const R overlap = s.radius_sum - distance;
+    const Vector<R> n = R(1.0) / distance * s.d;
+    const R rate = -dot(s.dv, n);
+    const auto touching = overlap > zero;
+    const R safe_overlap = select(touching, overlap, zero);
+    const R f_n =
+        Normal::force(NormalInput<R>{safe_overlap, rate, c.elastic, c.dissipative, s.inverse_reduced_radius});
+    const Vector<R> none{zero, zero, zero};
+    if constexpr (!Tangential::needs_spin) return {select(touching, -f_n * n, none), none, overlap};
+    const Vector<R> u_t = cross(s.spin, n) - s.dv - rate * n;
+    const R twist = Tangential::needs_twist ? R(0.5) * dot(s.turn, n) : zero;
+    const Vector<R> f_t = Tangential::force(SpatialInput<R>{f_n, u_t, n, twist, c.tangential_damping,
+                                                            c.friction, c.tangential_stiffness, elapsed},
+                                            memory);
+    return {select(touching, f_t - f_n * n, none), select(touching, cross(n, f_t), none), overlap};
 }
 
 } // namespace sandlane::laws

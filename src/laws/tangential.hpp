@@ -1,7 +1,8 @@
-// Tangential contact forces (docs/physics.md 4). Formulas only, templates on R.
+// Tangential contact forces (docs/physics.md 4). Formulas only, templates on R; in the plane along one
+// tangent, in space as vectors.
 #pragma once
 
-#include "core/real.hpp"
+#include "core/vector.hpp"
 
 namespace sandlane::laws {
 
@@ -12,36 +13,56 @@ template <class R> struct TangentialInput {
     R damping, friction, stiffness; // gamma_t [kg/s], mu, k_t [N/m]
     R elapsed;
 };
+// The same in space: velocity u_t of i's surface relative to j's [m/s], unit normal from i to j, mean spin of
+// both grains about it [rad/s].
+template <class R> struct SpatialInput {
+    R normal_force;
+    Vector<R> velocity, normal;
+    R twist;
+    R damping, friction, stiffness;
+    R elapsed;
+};
 
 // What the memory of a contact holds before its first evaluation, where a law must know that it is the first.
 inline constexpr double no_contact = 1e300;
 
-// A law returns f_t on grain i along t [N]. `memory` numbers per contact live as long as the contact does;
-// they are the same for both partners. Laws without memory do not look at it.
+// A law returns f_t on grain i along t, or as a vector [N]. `memory` numbers per contact (`memory_in_space`
+// in 3D) live as long as the contact does; both partners see the same numbers in 2D and opposite ones in 3D.
+// Laws without memory do not look at it.
 struct Frictionless {
-    static constexpr bool needs_spin = false;
-    static constexpr int memory = 0;
+    static constexpr bool needs_spin = false, needs_twist = false;
+    static constexpr int memory = 0, memory_in_space = 0;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>&, R*) { return R(0.0); }
+    template <class R> static SANDLANE_INLINE Vector<R> force(const SpatialInput<R>&, R*) {
+        return {R(0.0), R(0.0), R(0.0)};
+    }
     template <class R> static SANDLANE_INLINE R energy(const R&, const R*) { return R(0.0); }
+    template <class R> static SANDLANE_INLINE R energy_in_space(const R&, const R*) { return R(0.0); }
 };
 
 // f_t = -sign(v_t) min(gamma_t |v_t|, mu f_n) (2.18), written as a clamp so that v_t = 0 gives zero.
 struct HaffWerner {
-    static constexpr bool needs_spin = true;
-    static constexpr int memory = 0;
+    static constexpr bool needs_spin = true, needs_twist = false;
+    static constexpr int memory = 0, memory_in_space = 0;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R*) {
         const R limit = c.friction * c.normal_force;
         return max(min(-(c.damping * c.rate), limit), -limit);
     }
+    // -u_t min(gamma_t, mu f_n/|u_t|). Zero over zero is no number, and min then takes its second operand.
+    template <class R> static SANDLANE_INLINE Vector<R> force(const SpatialInput<R>& c, R*) {
+        const R speed = sqrt(dot(c.velocity, c.velocity));
+        return -min(c.friction * c.normal_force / speed, c.damping) * c.velocity;
+    }
     template <class R> static SANDLANE_INLINE R energy(const R&, const R*) { return R(0.0); }
+    template <class R> static SANDLANE_INLINE R energy_in_space(const R&, const R*) { return R(0.0); }
 };
 
 // A spring zeta in the tangential direction, held by Coulomb friction (2.20)-(2.21):
 // f_t = -k_t zeta - gamma_t v_t, at most mu f_n; while the contact slides zeta is what gives just that force,
 // so that it lets go at once when the motion reverses. memory: zeta [m].
 struct CundallStrack {
-    static constexpr bool needs_spin = true;
-    static constexpr int memory = 1;
+    static constexpr bool needs_spin = true, needs_twist = true;
+    static constexpr int memory = 1, memory_in_space = 3;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R* zeta) {
         const R zero(0.0);
         const auto first = zeta[0] > R(0.5 * no_contact);
@@ -55,9 +76,43 @@ struct CundallStrack {
         zeta[0] = select(c.normal_force > zero, held, zero);
         return force;
     }
+    template <class R> static SANDLANE_INLINE Vector<R> force(const SpatialInput<R>& c, R* zeta) {
+        const R zero(0.0), one(1.0);
+        const Vector<R> none{zero, zero, zero};
+        const auto first = zeta[0] > R(0.5 * no_contact);
+        const Vector<R> spring =
+            select(first, none, carried(c, {zeta[0], zeta[1], zeta[2]}) + c.elapsed * c.velocity);
+        const Vector<R> damped = c.damping * c.velocity;
+        const Vector<R> trial = -c.stiffness * spring - damped;
+        const R limit = c.friction * c.normal_force;
+        const R square = dot(trial, trial);
+        const auto slides = square > limit * limit;
+        const Vector<R> force = select(slides, limit / sqrt(square), one) * trial;
+        const Vector<R> pulled = -(one / c.stiffness) * (force + damped);
+        const Vector<R> held = select(c.normal_force > zero, select(slides, pulled, spring), none);
+        zeta[0] = held.x;
+        zeta[1] = held.y;
+        zeta[2] = held.z;
+        return force;
+    }
     // Elastic energy k_t zeta^2/2 [J].
     template <class R> static SANDLANE_INLINE R energy(const R& stiffness, const R* zeta) {
         return R(0.5) * stiffness * zeta[0] * zeta[0];
+    }
+    template <class R> static SANDLANE_INLINE R energy_in_space(const R& stiffness, const R* zeta) {
+        return R(0.5) * stiffness * (zeta[0] * zeta[0] + zeta[1] * zeta[1] + zeta[2] * zeta[2]);
+    }
+
+private:
+    // The spring moves along with its contact: turned into the tangential plane and about the normal by the
+    // mean twist of the grains, at its old length.
+    template <class R>
+    static SANDLANE_INLINE Vector<R> carried(const SpatialInput<R>& c, const Vector<R>& old) {
+        const Vector<R> flat = old - dot(c.normal, old) * c.normal;
+        const Vector<R> turned = flat + (c.elapsed * c.twist) * cross(c.normal, flat);
+        const R square = dot(turned, turned);
+        const R stretch = sqrt(dot(old, old) / square);
+        return select(square > R(0.0), stretch, R(0.0)) * turned;
     }
 };
 

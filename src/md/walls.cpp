@@ -126,6 +126,11 @@ void Walls::add_wall(const scene::Scene& scene, std::size_t index) {
     case scene::WallKind::grains:
         add_grains(wall, e);
         break;
+    case scene::WallKind::box:
+    case scene::WallKind::cylinder:
+    case scene::WallKind::cone:
+    case scene::WallKind::mesh:
+        break;
     }
 }
 

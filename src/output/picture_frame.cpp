@@ -95,6 +95,8 @@ void draw_wall(Canvas& canvas, const View& v, const WallShape& wall) {
         draw_disc(canvas, v.px(wall.centre.x), v.py(wall.centre.y), wall.radius * v.scale, wall.angle,
                   wall_grey);
         break;
+    case WallShape::Kind::triangle:
+        break;
     }
 }
 

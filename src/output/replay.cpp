@@ -57,6 +57,8 @@ void append_wall(const WallShape& wall, std::vector<float>& numbers) {
     case WallShape::Kind::disc:
         add({2, wall.centre.x, wall.centre.y, wall.radius, wall.angle, 0});
         break;
+    case WallShape::Kind::triangle:
+        break;
     }
 }
 

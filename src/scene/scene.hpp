@@ -5,6 +5,7 @@
 
 #include "core/vec.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -27,16 +28,18 @@ enum class Body { sphere, disc };     // mass of a grain: 4/3 pi R^3 rho, or pi 
 enum class Outside { error, remove }; // what happens to a grain that leaves an open side of the domain
 enum class GrainKind { lattice, random, pour, list, file };
 enum class SizeLaw { constant, uniform, inverse_square, lognormal };
-enum class WallKind { plane, segment, polyline, arc, grains };
+// plane, segment, polyline, arc, grains: 2D; plane, box, cylinder, cone, mesh: 3D.
+enum class WallKind { plane, segment, polyline, arc, grains, box, cylinder, cone, mesh };
 enum class MotionKind { fixed, linear, oscillate, rotate, planetary };
 enum class Wave { sine, cosine };
 enum class Trajectory { dump, xyz, vtp, book };
 enum class Colour { speed, pressure, spin, radius };
 
 struct Domain {
+    std::int64_t dimension = 2; // 2 or 3
     Vec lower, upper{1, 1, 0};
-    std::vector<bool> periodic{false, false};
-    Vec gravity;
+    std::array<bool, 3> periodic{};
+    Vec gravity; // 2D: z is the angular acceleration G_phi of the book's files
     Outside outside = Outside::remove;
 };
 
@@ -75,7 +78,8 @@ struct GrainItem {
     Vec position, velocity;
     double radius = 0, omega = 0;
     double angle = 0;
-    double mass = 0; // 0: from the density
+    double mass = 0;        // 0: from the density
+    Vec angular_velocity{}; // 3D, instead of omega
 };
 
 // A population of free grains.
@@ -85,19 +89,20 @@ struct Grains {
     GrainKind kind = GrainKind::lattice;
     Sizes sizes;
     Vec lower, upper; // region of centres (lattice: lower is the first centre); default: the domain
-    std::vector<std::int64_t> counts{0, 0}; // lattice: columns, rows
-    Vec spacing;                            // lattice: distance of neighbouring centres
-    bool triangular = false;                // lattice: every second row is shifted by half a column
-    double jitter = 0;                      // lattice: uniform displacement in units of the spacing
-    std::int64_t count = 0;                 // random, pour: number of grains
-    double packing_fraction = 0;            // random: used when count = 0
-    double start = 0;                       // pour: first insertion, s
-    double rate = 0;                        // pour: grains per second
-    Vec velocity;                           // common initial velocity
-    double thermal_speed = 0;               // standard deviation of each velocity component
-    double omega = 0;                       // initial spin, rad/s
-    double density = 0;                     // > 0 overrides the material's density
-    std::string file;                       // file: CSV, or the book's 25-column format
+    std::vector<std::int64_t> counts{0, 0, 1}; // lattice: columns, rows, layers
+    Vec spacing;                               // lattice: distance of neighbouring centres
+    bool triangular = false;                   // lattice: every second row is shifted by half a column
+    double jitter = 0;                         // lattice: uniform displacement in units of the spacing
+    std::int64_t count = 0;                    // random, pour: number of grains
+    double packing_fraction = 0;               // random: used when count = 0
+    double start = 0;                          // pour: first insertion, s
+    double rate = 0;                           // pour: grains per second
+    Vec velocity;                              // common initial velocity
+    double thermal_speed = 0;                  // standard deviation of each velocity component
+    double omega = 0;                          // initial spin, rad/s
+    Vec angular_velocity{};                    // 3D: initial spin, rad/s
+    double density = 0;                        // > 0 overrides the material's density
+    std::string file;                          // file: CSV, or the book's 25-column format
     std::vector<GrainItem> items;
 };
 
@@ -109,8 +114,13 @@ struct Wall {
     WallKind kind = WallKind::segment;
     std::vector<Vec>
         points; // plane: one point; segment: two; polyline: two or more; grains: end points of the row
-    bool closed = false;                                 // polyline: joins the last point to the first
-    Vec normal;                                          // plane: points into the free side
+    bool closed = false; // polyline: joins the last point to the first
+    Vec normal;          // plane: points into the free side
+    // 3D: box: two corners in points, its six faces act on the inside; cylinder, cone: ends of the axis in
+    // points, radius at the first end and radius_to at the second (cone), a surface of both sides; closed
+    // adds the end faces; mesh: triangles of an STL file, scaled, then moved by centre, acting on both sides.
+    double radius_to = 0, scale = 1;
+    std::string file;
     Vec centre;                                          // arc, and grains on an arc
     double radius = 0;                                   // arc radius; grains: radius of the wall grains
     double ring_radius = 0;                              // grains: > 0 puts them on a circle around centre
@@ -131,6 +141,7 @@ struct Motion {
     double phase = 0;
     Wave wave = Wave::sine;
     Vec centre;                               // rotate, planetary: pivot at t = 0
+    Vec axis{0, 0, 1};                        // 3D: rotate, planetary: direction of omega
     double orbit_radius = 0, orbit_omega = 0; // planetary
     double start = 0;                         // reference time t_0 of the given positions, s
 };

@@ -40,7 +40,7 @@ std::string write_sizes(const Grains& g) {
 void read_periodic(Domain& d, const Value& v, const std::string& path) {
     if (v.kind != Value::Kind::array)
         fail_at(v, path, "must be a list of axes, for example [\"x\", \"y\"] or []");
-    d.periodic = {false, false};
+    d.periodic = {};
     for (const Value& axis : v.items)
         d.periodic[static_cast<std::size_t>(read_choice(axis, path, {"x", "y"}))] = true;
 }

@@ -139,6 +139,11 @@ struct Validator {
         case WallKind::grains:
             if (w.items.empty()) check_wall_grains(w, path);
             break;
+        case WallKind::box:
+        case WallKind::cylinder:
+        case WallKind::cone:
+        case WallKind::mesh:
+            break;
         }
         for (std::size_t n = 1; n < w.points.size(); ++n)
             if (w.kind != WallKind::plane && w.points[n] == w.points[n - 1])

@@ -108,6 +108,11 @@ void add_pieces(std::vector<WallPiece>& pieces, const Wall& wall, int index) {
             pieces.push_back(piece);
         }
         break;
+    case WallKind::box:
+    case WallKind::cylinder:
+    case WallKind::cone:
+    case WallKind::mesh:
+        break;
     }
 }
 
