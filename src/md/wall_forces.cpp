@@ -18,7 +18,7 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
         const double* r = input.records + i * simd::record_fields;
         const WallContact c = walls.contact(n->element, {r[0], r[1], 0});
         const double reach = r[5] + c.radius;
-        constexpr int memory = laws::memory_of<Tangential>;
+        constexpr int memory = laws::memory_of<Normal, Tangential, 2>;
         double* const remembered = memory > 0 ? input.memory + (n - input.near) : nullptr;
         if (!c.valid || c.distance >= reach) {
             for (int m = 0; m < memory; ++m) remembered[m * input.stride] = laws::no_contact;
@@ -29,9 +29,9 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
                           (input.material[i] * input.materials + element.material) * laws::pair_coefficients;
         const laws::PairState<double> pair{c.distance * c.direction.x,
                                            c.distance * c.direction.y,
-                                           c.velocity.x - r[2],
-                                           c.velocity.y - r[3],
-                                           r[4] + c.spin,
+                                           c.velocity.x - r[2] * input.inverse_dt,
+                                           c.velocity.y - r[3] * input.inverse_dt,
+                                           r[4] * input.inverse_dt + c.spin,
                                            reach,
                                            r[6] + c.inverse_radius};
         double held[memory + 1];
@@ -39,7 +39,7 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
         const auto f = laws::pair_force<Normal, Tangential, double>(pair, laws::coefficients_from<double>(k),
                                                                     held, input.dt);
         for (int m = 0; m < memory; ++m) remembered[m * input.stride] = held[m];
-        double* force = input.force + (i - input.first) * simd::force_fields;
+        double* force = input.force + (i - input.first) * 4;
         force[0] += f.x;
         force[1] += f.y;
         force[2] += f.tangential;

@@ -64,7 +64,7 @@ struct WallInput {
     const NearWall* near = nullptr;
     double* memory = nullptr;
     std::ptrdiff_t stride = 0;
-    double dt = 0;
+    double dt = 0, inverse_dt = 0;
 };
 // Adds the forces of a range of candidates; compiled per law (wall_forces.cpp).
 using WallKernel = WallResult (*)(const Walls&, const WallInput&, const NearWall* begin, const NearWall* end);
