@@ -11,6 +11,8 @@ Prepared prepare(scene::Scene scene, const Common& common) {
     const simd::Isa isa = simd::choose_isa(common.isa);
     const ThreadChoice threads = choose_threads(common.threads);
     p.grains = scene::initial_grains(p.scene);
+    if (p.scene.domain.dimension == 3)
+        fail(Exit::invalid_input, "domain.dimension: 3 cannot be simulated yet; allowed: 2");
     p.needs = md::analyse(p.scene, p.grains);
     p.derived = md::derive(p.scene, p.needs);
     p.plan = md::make_plan(p.scene, p.needs, p.derived, isa, threads);

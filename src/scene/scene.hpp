@@ -1,5 +1,5 @@
 // The scene: what a TOML file says, as plain validated structs. Lengths in m, masses in kg, times in s,
-// angles in rad. schema.cpp declares every key once (type, unit, default, range, documentation) by pointing
+// angles in rad. The schema declares every key once (type, unit, default, range, documentation) by pointing
 // at these members.
 #pragma once
 
@@ -91,7 +91,8 @@ struct Grains {
     Vec lower, upper; // region of centres (lattice: lower is the first centre); default: the domain
     std::vector<std::int64_t> counts{0, 0, 1}; // lattice: columns, rows, layers
     Vec spacing;                               // lattice: distance of neighbouring centres
-    bool triangular = false;                   // lattice: every second row is shifted by half a column
+    bool triangular = false;                   // 2D lattice: every second row is shifted by half a column
+    bool staggered = false;                    // 3D lattice: every second layer is shifted along x and y
     double jitter = 0;                         // lattice: uniform displacement in units of the spacing
     std::int64_t count = 0;                    // random, pour: number of grains
     double packing_fraction = 0;               // random: used when count = 0
@@ -159,7 +160,7 @@ struct Md {
     Body body = Body::sphere;
 };
 
-enum class Axis { x, y };
+enum class Axis { x, y, z };
 enum class AnalysisKind {
 #define ANALYSIS(name, choice) name,
 #include "scene/analyses.def"
@@ -171,7 +172,9 @@ struct AnalysisSpec {
     AnalysisKind kind = AnalysisKind::profile;
     double every = 0; // s; 0: duration/100
     double start = 0; // s: frames before it are left out
-    Vec from, to; // flow: ends of the line; else: corners of the region, the domain where they are the same
+    // flow: ends of the line, in 3D corners of a rectangle across an axis; else: corners of the region, the
+    // domain where they are the same
+    Vec from, to;
     Axis axis = Axis::y;   // profile
     std::int64_t bins = 0; // 0: chosen by the kind
     double range = 0;      // pair-correlation: largest distance, m; 0: half the shorter side
