@@ -5,7 +5,7 @@
 #include "scene/cell_grid.hpp"
 #include "scene/population.hpp"
 #include "scene/space.hpp"
-#include "scene/wall_geometry.hpp"
+#include "scene/standing_walls.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -130,21 +130,24 @@ private:
     }
 
     void check_walls() const {
-        const std::vector<WallPiece> pieces = walls_at_start(scene_);
+        const StandingWalls walls(scene_);
         for (const GrainState& g : grains_) {
             if (std::isfinite(g.insert_at)) continue;
-            for (const WallPiece& piece : pieces) {
-                const double distance = gap(piece, g.position).distance;
-                if (distance >= (1 - legal_overlap) * g.radius) continue;
-                const std::string& wall = scene_.walls[static_cast<std::size_t>(piece.wall)].name;
-                fail(Exit::invalid_input,
-                     "{}: its centre ({}) m is {:.4g} m from the surface of walls[{}]{}; allowed: {:.4g} "
-                     "m or more (95 % of its radius {} m). Move the grain or the wall.",
-                     name(g), text(g.position), distance, piece.wall,
-                     wall.empty() ? "" : fmt::format(" \"{}\"", wall), (1 - legal_overlap) * g.radius,
-                     g.radius);
-            }
+            const double allowed = (1 - legal_overlap) * g.radius;
+            walls.for_near(g.position, allowed, [&](std::size_t piece) {
+                refuse_wall(g, walls.gap(piece, g.position).distance, walls.wall(piece), allowed);
+            });
         }
+    }
+
+    [[noreturn]] void refuse_wall(const GrainState& g, double distance, int wall, double allowed) const {
+        const std::string& label = scene_.walls[static_cast<std::size_t>(wall)].name;
+        fail(Exit::invalid_input,
+             "{}: its centre ({}) m is {:.4g} m from the surface of walls[{}]{}; allowed: {:.4g} m or more "
+             "(95 "
+             "% of its radius {} m). Move the grain or the wall.",
+             name(g), text(g.position), distance, wall, label.empty() ? "" : fmt::format(" \"{}\"", label),
+             allowed, g.radius);
     }
 
     const Scene& scene_;

@@ -62,8 +62,7 @@ std::vector<Vec> insert_sequentially(const PackingTask& task) {
             const double reach = radius + placed[n].radius;
             room = room && dot(d, d) >= reach * reach;
         });
-        for (std::size_t w = 0; room && w < task.walls.size(); ++w)
-            room = gap(task.walls[w], p).distance >= radius;
+        if (room) task.walls.for_near(p, radius, [&](std::size_t) { room = false; });
         return room;
     };
     std::vector<Vec> centres(order.size());
@@ -121,7 +120,7 @@ public:
         double scale = 1;
         for (const auto& [i, j] : pairs_) scale = std::min(scale, distance(i, j) / (radii_[i] + radii_[j]));
         for (const auto& [i, w] : near_walls_)
-            scale = std::min(scale, std::max(0.0, gap(task_.walls[w], centres_[i]).distance) / radii_[i]);
+            scale = std::min(scale, std::max(0.0, task_.walls.gap(w, centres_[i]).distance) / radii_[i]);
         return scale;
     }
 
@@ -145,9 +144,9 @@ private:
                 if (once && distance(i, j) < clearance * (radii_[i] + radii_[j]) + skin_)
                     pairs_.push_back({i, j});
             });
-            for (std::size_t w = 0; w < task_.walls.size(); ++w)
-                if (gap(task_.walls[w], centres_[i]).distance < clearance * radii_[i] + skin_)
-                    near_walls_.push_back({i, w});
+            task_.walls.for_near(centres_[i], clearance * radii_[i] + skin_, [&](std::size_t w) {
+                near_walls_.push_back({i, w});
+            });
         }
         listed_ = centres_;
     }
@@ -171,7 +170,7 @@ private:
             if (j < movable_) centres_[j] = centres_[j] + (share * (reach - r)) * along;
         }
         for (const auto& [i, w] : near_walls_) {
-            const Gap g = gap(task_.walls[w], centres_[i]);
+            const Gap g = task_.walls.gap(w, centres_[i]);
             if (const double lacking = clearance * radii_[i] - g.distance; lacking > 0)
                 centres_[i] = centres_[i] + lacking * g.away;
         }
@@ -185,7 +184,7 @@ private:
             worst =
                 std::max(worst, (radii_[i] + radii_[j] - distance(i, j)) / std::min(radii_[i], radii_[j]));
         for (const auto& [i, w] : near_walls_)
-            worst = std::max(worst, 1 - gap(task_.walls[w], centres_[i]).distance / radii_[i]);
+            worst = std::max(worst, 1 - task_.walls.gap(w, centres_[i]).distance / radii_[i]);
         return worst;
     }
 

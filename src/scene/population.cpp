@@ -106,9 +106,8 @@ private:
     }
 
     [[nodiscard]] std::vector<GrainState> random(const std::vector<GrainState>& placed) const {
-        PackingTask task{
-            name_, Box(scene_.domain),     region_.lower,           region_.upper, random_radii(),
-            {},    walls_at_start(scene_), stream(Stream::position)};
+        PackingTask task{name_, Box(scene_.domain),    region_.lower,           region_.upper, random_radii(),
+                         {},    StandingWalls(scene_), stream(Stream::position)};
         for (const GrainState& g : placed)
             if (!std::isfinite(g.insert_at)) task.fixed.push_back({g.position, g.radius});
         const std::vector<Vec> centres = pack(task);

@@ -1,7 +1,5 @@
 #include "scene/wall_geometry.hpp"
 
-#include "scene/space.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -74,44 +72,6 @@ bool stands_as_given(const Motion& m) {
     return false;
 }
 
-Vec unit(Vec v) {
-    return (1 / norm(v)) * v;
-}
-
-// Six planes that face inwards.
-void add_box(std::vector<WallPiece>& pieces, const Wall& wall, WallPiece piece) {
-    piece.kind = WallPiece::Kind::plane;
-    const Vec diagonal = wall.points[1] - wall.points[0];
-    for (const AxisOfSpace& axis : space_axes) {
-        const double inwards = diagonal.*axis.component > 0 ? 1 : -1;
-        piece.b = {};
-        for (const std::size_t end : {0U, 1U}) {
-            piece.a = wall.points[end];
-            piece.b.*axis.component = end == 0 ? inwards : -inwards;
-            pieces.push_back(piece);
-        }
-    }
-}
-
-// A cylinder or a cone, with its end faces if it is closed.
-void add_mantle(std::vector<WallPiece>& pieces, const Wall& wall, WallPiece piece) {
-    const Vec first = wall.points[0], second = wall.points[1];
-    const double at_first = wall.radius,
-                 at_second = wall.kind == WallKind::cone ? wall.radius_to : wall.radius;
-    piece.kind = WallPiece::Kind::mantle;
-    piece.b = unit(second - first);
-    const auto add = [&](Vec from, double length, double radius, double radius_to) {
-        piece.a = from;
-        piece.length = length;
-        piece.radius = radius;
-        piece.radius_to = radius_to;
-        pieces.push_back(piece);
-    };
-    add(first, norm(second - first), at_first, at_second);
-    if (wall.closed && at_first > 0) add(first, 0, 0, at_first);
-    if (wall.closed && at_second > 0) add(second, 0, 0, at_second);
-}
-
 void add_pieces(std::vector<WallPiece>& pieces, const Wall& wall, int index) {
     WallPiece piece;
     piece.wall = index;
@@ -119,7 +79,7 @@ void add_pieces(std::vector<WallPiece>& pieces, const Wall& wall, int index) {
     case WallKind::plane:
         piece.kind = WallPiece::Kind::plane;
         piece.a = wall.points[0];
-        piece.b = unit(wall.normal);
+        piece.b = (1 / norm(wall.normal)) * wall.normal;
         pieces.push_back(piece);
         break;
     case WallKind::segment:
@@ -149,12 +109,8 @@ void add_pieces(std::vector<WallPiece>& pieces, const Wall& wall, int index) {
         }
         break;
     case WallKind::box:
-        add_box(pieces, wall, piece);
-        break;
     case WallKind::cylinder:
     case WallKind::cone:
-        add_mantle(pieces, wall, piece);
-        break;
     case WallKind::mesh:
         break;
     }
@@ -164,27 +120,6 @@ Gap from_point(Vec p, Vec nearest) {
     const Vec d = p - nearest;
     const double distance = norm(d);
     return {distance, distance > 0 ? (1 / distance) * d : Vec{0, 1, 0}};
-}
-
-Gap from_segment(Vec p, Vec a, Vec b) {
-    const Vec along = b - a;
-    const double s = std::clamp(dot(p - a, along) / dot(along, along), 0.0, 1.0);
-    return from_point(p, a + s * along);
-}
-
-Vec perpendicular(Vec axis) {
-    return unit(cross(axis, std::abs(axis.x) < 0.5 ? Vec{1, 0, 0} : Vec{0, 1, 0}));
-}
-
-// In the half-plane of p that the axis bounds, with coordinates along and across it, the mantle is a segment.
-Gap from_mantle(const WallPiece& piece, Vec p) {
-    const Vec d = p - piece.a;
-    const double along = dot(d, piece.b);
-    const Vec across = d - along * piece.b;
-    const double r = norm(across);
-    const Gap flat = from_segment({along, r, 0}, {0, piece.radius, 0}, {piece.length, piece.radius_to, 0});
-    const Vec outwards = r > 0 ? (1 / r) * across : perpendicular(piece.b);
-    return {flat.distance, flat.away.x * piece.b + flat.away.y * outwards};
 }
 
 Gap from_arc(const WallPiece& piece, Vec p) {
@@ -223,8 +158,11 @@ Gap gap(const WallPiece& piece, Vec p) {
     switch (piece.kind) {
     case WallPiece::Kind::plane:
         return {dot(p - piece.a, piece.b), piece.b};
-    case WallPiece::Kind::segment:
-        return from_segment(p, piece.a, piece.b);
+    case WallPiece::Kind::segment: {
+        const Vec along = piece.b - piece.a;
+        const double s = std::clamp(dot(p - piece.a, along) / dot(along, along), 0.0, 1.0);
+        return from_point(p, piece.a + s * along);
+    }
     case WallPiece::Kind::arc:
         return from_arc(piece, p);
     case WallPiece::Kind::disc: {
@@ -232,8 +170,6 @@ Gap gap(const WallPiece& piece, Vec p) {
         g.distance -= piece.radius;
         return g;
     }
-    case WallPiece::Kind::mantle:
-        return from_mantle(piece, p);
     }
     return {};
 }

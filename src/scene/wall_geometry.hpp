@@ -13,13 +13,10 @@ namespace sandlane::scene {
 [[nodiscard]] double wall_grain_count(const Wall& wall);
 
 struct WallPiece {
-    enum class Kind { plane, segment, arc, disc, mantle };
+    enum class Kind { plane, segment, arc, disc };
     Kind kind = Kind::segment;
-    // plane: point, unit normal; segment: ends; arc, disc: centre in a; mantle: first end and unit vector of
-    // the axis
-    Vec a, b;
-    double radius = 0;                     // arc, disc; mantle: at the first end
-    double radius_to = 0, length = 0;      // mantle: at the second end; along the axis, 0 for an end face
+    Vec a, b;                              // plane: point, unit normal; segment: ends; arc, disc: centre in a
+    double radius = 0;                     // arc, disc
     double angle_from = 0, angle_span = 0; // arc, counter-clockwise
     int wall = 0;                          // index in Scene::walls
 };
@@ -33,7 +30,7 @@ struct Gap {
 [[nodiscard]] Gap gap(const WallPiece& piece, Vec p);
 
 // All walls that stand at t = 0 where the scene puts them; a motion that has already displaced its walls at
-// t = 0 (planetary, a cosine, a phase) leaves them out, and so does a mesh, whose file is not read here.
+// t = 0 (planetary, a cosine, a phase) leaves them out.
 [[nodiscard]] std::vector<WallPiece> walls_at_start(const Scene& scene);
 
 } // namespace sandlane::scene
