@@ -37,9 +37,9 @@ template <class T> Table<T>& Table<T>::required() {
     fields_.back().required = true;
     return *this;
 }
-template <class T> Table<T>& Table<T>::only(std::int64_t dimension, std::string instead) {
+template <class T> Table<T>& Table<T>::only(std::int64_t dimension, const std::string& instead) {
     fields_.back().only = dimension;
-    fields_.back().instead = std::move(instead);
+    fields_.back().instead = instead;
     return *this;
 }
 template <class T>

@@ -55,21 +55,25 @@ Sites sites_in_plane(const PackingTask& task, std::int64_t n) {
     return best;
 }
 
-// Square layers of edge a, a/sqrt(2) apart, are a face-centred cubic lattice.
+// Square layers of edge a, a/sqrt(2) apart, are a face-centred cubic lattice. Thin regions decide the layers
+// first.
 Sites sites_in_space(const PackingTask& task, std::int64_t n) {
     const Vec size = task.size();
-    const double ideal = std::cbrt(std::numbers::sqrt2 * content(size, 3) / static_cast<double>(n));
-    const Candidates columns(size.x, ideal, 4), rows(size.y, ideal, 4);
+    const double grains = static_cast<double>(n);
+    const double ideal = std::cbrt(std::numbers::sqrt2 * content(size, 3) / grains);
+    const Candidates layers(size.z, ideal / std::numbers::sqrt2, 4);
     Sites best;
-    for (std::int64_t c = columns.first; c <= columns.last; ++c)
-        for (std::int64_t r = rows.first; r <= rows.last; ++r) {
-            Sites sites{c, r, divided_up(n, c * r)};
-            if (task.wraps(space_axes[2])) sites.layers += sites.layers % 2;
+    for (std::int64_t l = layers.first; l <= layers.last; ++l) {
+        if (task.wraps(space_axes[2]) && l % 2 != 0) continue;
+        const Candidates columns(size.x, std::sqrt(size.x * size.y * static_cast<double>(l) / grains), 4);
+        for (std::int64_t c = columns.first; c <= columns.last; ++c) {
+            Sites sites{c, divided_up(n, c * l), l};
             const Vec step = spacing(sites, size);
-            const double across = std::hypot(0.5 * step.x, 0.5 * step.y, step.z);
+            const double across = l > 1 ? std::hypot(0.5 * step.x, 0.5 * step.y, step.z) : step.x;
             sites.least_distance = std::min({step.x, step.y, across});
             if (sites.least_distance > best.least_distance) best = sites;
         }
+    }
     return best;
 }
 

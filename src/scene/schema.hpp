@@ -74,7 +74,7 @@ public:
     Table& custom(Field<T> field);
     // Of the last key:
     Table& required();
-    Table& only(std::int64_t dimension, std::string instead = {});
+    Table& only(std::int64_t dimension, const std::string& instead = {});
 
     void read(T& object, const Value& value, const std::string& path, std::int64_t dimension) const;
     // One line for each key, or all of them in braces.

@@ -93,6 +93,18 @@ INSTANTIATE_TEST_SUITE_P(
                            c.periodic ? "Periodic" : "Closed", c.dimension == 3 ? "Space" : "");
     });
 
+TEST(DensePacking, OfSpheresFillsThinSlabs) {
+    for (const double height : {2.2, 4.5, 7.0}) { // one layer of spheres of diameter 1.8 to 2.2, and a few
+        SCOPED_TRACE(height);
+        Scene scene = random_scene(3, 1000, 0.47, true);
+        Vec& size = scene.domain.upper;
+        const double side = std::sqrt(content(size, 3) / height);
+        size = {side, side, height};
+        scene.domain.periodic = {true, true, false};
+        EXPECT_LE(worst_overlap(scene, initial_grains(scene)), 0.01);
+    }
+}
+
 // Bond order of rank 6 (Steinhardt, Nelson, Ronchetti 1983) over pairs closer than 1.2 mean diameters: 0.575
 // for the face-centred cubic lattice, 1/sqrt(bonds) for bonds in random directions.
 double bond_order(const Scene& scene, const std::vector<GrainState>& grains) {
