@@ -172,9 +172,7 @@ struct AnalysisSpec {
     AnalysisKind kind = AnalysisKind::profile;
     double every = 0; // s; 0: duration/100
     double start = 0; // s: frames before it are left out
-    // flow: ends of the line, in 3D corners of a rectangle across an axis; else: corners of the region, the
-    // domain where they are the same
-    Vec from, to;
+    Vec from, to; // flow: ends of the line; else: corners of the region, the domain where they are the same
     Axis axis = Axis::y;   // profile
     std::int64_t bins = 0; // 0: chosen by the kind
     double range = 0;      // pair-correlation: largest distance, m; 0: half the shorter side
