@@ -24,8 +24,8 @@ inline StepCost operator+(const StepCost& a, const StepCost& b) {
 
 // The integrator (motion.ipp).
 inline StepCost motion_cost(const md::Plan& plan) {
-    const double order = plan.order, dofs = simd::degrees_of_freedom(plan.dimension, plan.rotation);
-    const double spins = plan.dimension == 3 && plan.rotation ? simd::spin_fields : 0;
+    const double order = plan.order, dofs = simd::degrees_of_freedom(plan.dimension, md::turns(plan));
+    const double spins = plan.dimension == 3 && md::turns(plan) ? simd::spin_fields : 0;
     StepCost c;
     c.bytes = 2 * 8 * (order - 2) * dofs            // state, read and written
               + 8 * (simd::record_fields + spins)   // records, written; read with the forces
@@ -33,7 +33,7 @@ inline StepCost motion_cost(const md::Plan& plan) {
     const double predict = order * (order - 1) / 2; // gear_predict
     const double correct = 4 + 2 * order;           // acceleration, difference, gear_correct
     const double record = 2 + 4 + 4 + 4;            // velocities, largest speed, inside, wrap
-    c.arithmetic = dofs * (predict + correct) + record + (plan.rotation ? 2 : 0);
+    c.arithmetic = dofs * (predict + correct) + record + (md::turns(plan) ? 2 : 0);
     return c;
 }
 

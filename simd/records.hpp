@@ -1,6 +1,9 @@
 // Layout of the state that pair kernels and the integrator share, and of the forces between them.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 namespace sandlane::simd {
 
 // Record of a particle: eight doubles, 64 bytes, at the time that forces are wanted for. Everything a law
@@ -23,10 +26,26 @@ template <int dimension> struct Record {
 // Beside it in 3D, with rotation: omega_x dt, omega_y dt, omega_z dt, R.
 inline constexpr int spin_fields = 4;
 
-// Force accumulator of a particle. 2D: Fx, Fy, sum of f_t (torque = R sum f_t), unused. 3D: Fx, Fy, Fz,
-// unused, and with rotation the sum of n x f_t (torque = R times it), unused.
-[[nodiscard]] constexpr int force_stride(int dimension, bool spin) {
-    return dimension == 3 && spin ? 8 : 4;
+// omega dt of a particle, component c; in the plane there is one.
+template <int dimension>
+[[nodiscard]] inline double turn_of(const double* record, const double* spins, std::int32_t particle, int c) {
+    if constexpr (dimension == 3) return spins[std::ptrdiff_t{particle} * spin_fields + c];
+    return record[Record<2>::spin] * record[Record<2>::inverse_radius];
+}
+
+// How grains turn: not at all, by friction at their surface, or by couples besides (rolling friction, lever arms
+// other than the radius).
+enum class Rotation { none, friction, couples };
+inline constexpr int rotations = 3;
+
+// Force accumulator of a particle. 2D: Fx, Fy, sum of f_t, sum of couples; torque = R sum f_t + couples. 3D: Fx,
+// Fy, Fz, unused; with rotation the sum of n x f_t, unused; with couples their sum, unused.
+[[nodiscard]] constexpr int force_stride(int dimension, Rotation rotation) {
+    return dimension == 3 ? 4 + 4 * static_cast<int>(rotation) : 4;
+}
+// Whether a field is opposite for the partner of a contact; else it is the same (docs/physics.md 2).
+[[nodiscard]] constexpr bool is_mirrored(int dimension, int field) {
+    return dimension == 3 ? field / 4 != 1 : field != 2;
 }
 
 // Degrees of freedom that the integrator carries: translation, and an arc R phi in 2D or a vector in 3D.

@@ -9,43 +9,41 @@ namespace sandlane::simd {
 
 // ---- a force and its reaction
 
-// Signs of the fields of a force row for the partner: opposite forces, equal torques (docs/physics.md 2).
-template <int dimension, int fields> [[nodiscard]] constexpr bool mirrored(int field) {
-    return field < (fields == 8 ? 4 : dimension);
-}
 template <class Arch, int dimension, int fields> struct ForceRow {
     static SANDLANE_INLINE void add(double* to, const double* row) {
         for (int f = 0; f < fields; ++f) to[f] += row[f];
     }
     static SANDLANE_INLINE void add_mirrored(double* to, const double* row) {
-        for (int f = 0; f < fields; ++f)
-            to[f] = mirrored<dimension, fields>(f) ? to[f] - row[f] : to[f] + row[f];
+        for (int f = 0; f < fields; ++f) to[f] = is_mirrored(dimension, f) ? to[f] - row[f] : to[f] + row[f];
     }
 };
 #if defined(__AVX2__)
-SANDLANE_INLINE __m256d mirror_signs(int opposite) {
-    const auto sign = [&](int f) { return f < opposite ? -0.0 : 0.0; };
+// Minus zero where the field is mirrored.
+template <int dimension, int first> SANDLANE_INLINE __m256d mirror_signs() {
+    const auto sign = [](int f) { return is_mirrored(dimension, first + f) ? -0.0 : 0.0; };
     return _mm256_setr_pd(sign(0), sign(1), sign(2), sign(3));
 }
-template <class Arch, int dimension> struct ForceRow<Arch, dimension, 4> {
+template <class Arch, int dimension, int fields> struct WideForceRow {
     static SANDLANE_INLINE void add(double* to, const double* row) {
-        _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), _mm256_loadu_pd(row)));
+        for (int f = 0; f < fields; f += 4)
+            _mm256_storeu_pd(to + f, _mm256_add_pd(_mm256_loadu_pd(to + f), _mm256_loadu_pd(row + f)));
+    }
+    template <int first> static SANDLANE_INLINE void add_part(double* to, const double* row) {
+        const __m256d other = _mm256_xor_pd(mirror_signs<dimension, first>(), _mm256_loadu_pd(row + first));
+        _mm256_storeu_pd(to + first, _mm256_add_pd(_mm256_loadu_pd(to + first), other));
     }
     static SANDLANE_INLINE void add_mirrored(double* to, const double* row) {
-        const __m256d other = _mm256_xor_pd(mirror_signs(dimension), _mm256_loadu_pd(row));
-        _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), other));
+        add_part<0>(to, row);
+        if constexpr (fields > 4) add_part<4>(to, row);
+        if constexpr (fields > 8) add_part<8>(to, row);
     }
 };
-template <class Arch, int dimension> struct ForceRow<Arch, dimension, 8> {
-    static SANDLANE_INLINE void add(double* to, const double* row) {
-        ForceRow<Arch, dimension, 4>::add(to, row);
-        ForceRow<Arch, dimension, 4>::add(to + 4, row + 4);
-    }
-    static SANDLANE_INLINE void add_mirrored(double* to, const double* row) {
-        _mm256_storeu_pd(to, _mm256_sub_pd(_mm256_loadu_pd(to), _mm256_loadu_pd(row)));
-        ForceRow<Arch, dimension, 4>::add(to + 4, row + 4);
-    }
-};
+template <int dimension, int fields>
+struct ForceRow<xsimd::avx2, dimension, fields> : WideForceRow<xsimd::avx2, dimension, fields> {};
+#if defined(__AVX512F__)
+template <int dimension, int fields>
+struct ForceRow<xsimd::avx512bw, dimension, fields> : WideForceRow<xsimd::avx512bw, dimension, fields> {};
+#endif
 #endif
 
 // ---- transposes of eight rows of a few fields, without gaps or wherever they stand
@@ -126,8 +124,7 @@ template <int fields> struct RowsOfFours {
         store_rows(field, [&](int l) { return base + std::ptrdiff_t{at[l]} * fields; });
     }
 };
-template <> struct Rows<xsimd::avx2, 4> : RowsOfFours<4> {};
-template <> struct Rows<xsimd::avx2, 8> : RowsOfFours<8> {};
+template <int fields> struct Rows<xsimd::avx2, fields> : RowsOfFours<fields> {};
 #endif
 
 #if defined(__AVX512F__)
@@ -151,17 +148,29 @@ SANDLANE_INLINE void transpose8(__m512d (&r)[8]) {
 }
 template <> struct Rows<xsimd::avx512bw, 8> {
     using Lanes = Block<xsimd::avx512bw>;
-    static SANDLANE_INLINE void load(const double* rows, Lanes (&field)[8]) {
+    template <class Row> static SANDLANE_INLINE void load_rows(const Row& at, Lanes (&field)[8]) {
         __m512d row[8];
-        for (int l = 0; l < width; ++l) row[l] = _mm512_loadu_pd(rows + 8 * l);
+        for (int l = 0; l < width; ++l) row[l] = _mm512_loadu_pd(at(l));
         transpose8(row);
         for (int f = 0; f < 8; ++f) field[f].p[0] = row[f];
     }
-    static SANDLANE_INLINE void store(const Lanes (&field)[8], double* rows) {
+    template <class Row> static SANDLANE_INLINE void store_rows(const Lanes (&field)[8], const Row& at) {
         __m512d row[8];
         for (int f = 0; f < 8; ++f) row[f] = field[f].p[0];
         transpose8(row);
-        for (int l = 0; l < width; ++l) _mm512_storeu_pd(rows + 8 * l, row[l]);
+        for (int l = 0; l < width; ++l) _mm512_storeu_pd(at(l), row[l]);
+    }
+    static SANDLANE_INLINE void load(const double* rows, Lanes (&field)[8]) {
+        load_rows([&](int l) { return rows + 8 * l; }, field);
+    }
+    static SANDLANE_INLINE void store(const Lanes (&field)[8], double* rows) {
+        store_rows(field, [&](int l) { return rows + 8 * l; });
+    }
+    static SANDLANE_INLINE void gather(const double* base, const std::int32_t* at, Lanes (&field)[8]) {
+        load_rows([&](int l) { return base + std::ptrdiff_t{at[l]} * 8; }, field);
+    }
+    static SANDLANE_INLINE void scatter(const Lanes (&field)[8], double* base, const std::int32_t* at) {
+        store_rows(field, [&](int l) { return base + std::ptrdiff_t{at[l]} * 8; });
     }
 };
 template <> struct Rows<xsimd::avx512bw, 4> {
@@ -251,7 +260,8 @@ template <int dimension> struct CombinePairs<xsimd::avx2, dimension> {
     static SANDLANE_INLINE void apply(const double* records, const std::int32_t* i, const std::int32_t* j,
                                       Block<xsimd::avx2> (&field)[record_fields]) {
         // b + (-a) is b - a to the last bit.
-        const __m256d signs = mirror_signs(Record<dimension>::sums - 4);
+        const auto sign = [](int f) { return f < Record<dimension>::sums ? -0.0 : 0.0; };
+        const __m256d signs = _mm256_setr_pd(sign(4), sign(5), sign(6), sign(7));
         for (int part = 0; part < 2; ++part) {
             __m256d low[4], high[4];
             for (int l = 0; l < 4; ++l) {
@@ -270,6 +280,33 @@ template <int dimension> struct CombinePairs<xsimd::avx2, dimension> {
     }
 };
 #endif
+
+// omega_i + omega_j, omega_i - omega_j and R of both, times dt, where couples want them: lane by lane.
+template <class Arch, int dimension> struct Turns {
+    static constexpr int components = dimension == 3 ? 3 : 1;
+    Block<Arch> turn[components], differ[components], first, second;
+
+    SANDLANE_INLINE Turns(const double* records, const double* spins, const std::int32_t* i, const std::int32_t* j) {
+        double sum[components][width], difference[components][width], radius[2][width];
+        for (int l = 0; l < width; ++l) {
+            const double* a = records + std::ptrdiff_t{i[l]} * record_fields;
+            const double* b = records + std::ptrdiff_t{j[l]} * record_fields;
+            for (int c = 0; c < components; ++c) {
+                const double wa = turn_of<dimension>(a, spins, i[l], c), wb = turn_of<dimension>(b, spins, j[l], c);
+                sum[c][l] = wb + wa;
+                difference[c][l] = wa - wb;
+            }
+            radius[0][l] = a[Record<dimension>::radius];
+            radius[1][l] = b[Record<dimension>::radius];
+        }
+        for (int c = 0; c < components; ++c) {
+            turn[c] = load<Arch>(sum[c]);
+            differ[c] = load<Arch>(difference[c]);
+        }
+        first = load<Arch>(radius[0]);
+        second = load<Arch>(radius[1]);
+    }
+};
 
 // spin = R_i omega_i + R_j omega_j and turn = omega_i + omega_j of the spin records of eight pairs, times dt.
 template <class Arch> struct CombineSpins {

@@ -147,14 +147,17 @@ using BinKernel = void (*)(const BinView&, std::int64_t begin, std::int64_t end)
 
 // Kernels of the plane or of space.
 struct DimensionKernels {
-    // [normal law][tangential law][many materials]; null for laws that remember, which need lists, and for
-    // laws that the dimension does not have
-    PairKernel pair[laws::normal_laws][laws::tangential_laws][2];
-    TileKernel tile[laws::normal_laws][laws::tangential_laws][2];
+    // [couples][many materials]; null for laws that remember, which need lists, and for laws that the dimension
+    // does not have
+    struct Law {
+        PairKernel pair[2][2];
+        TileKernel tile[2][2];
+    };
+    Law law[laws::normal_laws][laws::tangential_laws];
     CellKernel cells;
     CandidateKernel candidates;
     NearKernel near_pairs;
-    MotionKernel predict[4][2], correct[4][2], advance[4][2]; // [order - 3][rotation]
+    MotionKernel predict[4][rotations], correct[4][rotations], advance[4][rotations]; // [order - 3]
     BinKernel bin;
 };
 

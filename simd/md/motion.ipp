@@ -74,11 +74,12 @@ SANDLANE_INLINE void settle(const MotionView& view, std::int64_t first, unsigned
     most = max(only(real, shift2), most);
 }
 
-template <class Arch, int dimension, int order, bool rotation, bool do_correct, bool do_predict>
+template <class Arch, int dimension, int order, Rotation rotation, bool do_correct, bool do_predict>
 MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t end) {
     using R = Block<Arch>;
     using Fields = Record<dimension>;
-    constexpr int dofs = degrees_of_freedom(dimension, rotation), fields = force_stride(dimension, rotation);
+    constexpr bool turns = rotation != Rotation::none, couples = rotation == Rotation::couples;
+    constexpr int dofs = degrees_of_freedom(dimension, turns), fields = force_stride(dimension, rotation);
     const auto step = [&](double* gear, int dof, R& value, R& shift, const R& acceleration) {
         step_value<Arch, order, do_correct, do_predict>(gear + dof * (order - 2) * width, value, shift,
                                                         acceleration, R(view.half_dt2));
@@ -97,16 +98,19 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
         for (int d = 0; d < dimension; ++d)
             step(gear, d, record[d], record[dimension + d], force[d] * inverse_mass + R(view.gravity[d]));
         const R of_torque = R(view.inverse_inertia) * inverse_mass; // R^2/J
-        if constexpr (rotation && dimension == 2)
+        if constexpr (turns && dimension == 2) {
+            R torque = force[2];
+            if constexpr (couples) torque = torque + force[3] * record[Fields::inverse_radius];
             step(gear, 2, record[Fields::angle], record[Fields::spin],
-                 force[2] * of_torque + record[Fields::radius] * R(view.gravity_spin));
-        if constexpr (rotation && dimension == 3) {
+                 torque * of_torque + record[Fields::radius] * R(view.gravity_spin));
+        }
+        if constexpr (turns && dimension == 3) {
             R spin[spin_fields];
             Rows<Arch, spin_fields>::load(view.spins + first * spin_fields, spin);
             for (int d = 0; d < 3; ++d) {
-                R no_angle(0.0);
-                step(gear, 3 + d, no_angle, spin[d],
-                     force[4 + d] * (of_torque * record[Fields::inverse_radius]));
+                R no_angle(0.0), torque = force[4 + d];
+                if constexpr (couples) torque = torque + force[8 + d] * record[Fields::inverse_radius];
+                step(gear, 3 + d, no_angle, spin[d], torque * (of_torque * record[Fields::inverse_radius]));
             }
             Rows<Arch, spin_fields>::store(spin, view.new_spins + first * spin_fields);
         }

@@ -33,15 +33,19 @@ SANDLANE_INLINE Block<Arch> separate(const PairView& view, Block<Arch> (&field)[
 template <class Arch>
 SANDLANE_INLINE laws::PairCoefficients<Block<Arch>>
 gather_coefficients(const PairView& view, const std::int32_t* i, const std::int32_t* j) {
-    double lanes[laws::pair_coefficients][width];
+    using R = Block<Arch>;
+    constexpr int own = laws::pair_coefficients - laws::scene_coefficients;
+    double lanes[own][width];
     for (int l = 0; l < width; ++l) {
         const std::ptrdiff_t pair =
             std::ptrdiff_t{view.material[i[l]]} * view.materials + view.material[j[l]];
         const double* entry = view.coefficients + pair * laws::pair_coefficients;
-        for (int c = 0; c < laws::pair_coefficients; ++c) lanes[c][l] = entry[c];
+        for (int c = 0; c < own; ++c) lanes[c][l] = entry[c];
     }
     return {load<Arch>(lanes[0]), load<Arch>(lanes[1]), load<Arch>(lanes[2]), load<Arch>(lanes[3]),
-            load<Arch>(lanes[4])};
+            load<Arch>(lanes[4]), load<Arch>(lanes[5]), load<Arch>(lanes[6]), load<Arch>(lanes[7]),
+            R(view.coefficients[laws::pair_coefficients - 2]),
+            R(view.coefficients[laws::pair_coefficients - 1])};
 }
 
 template <class R> SANDLANE_INLINE Vector<R> vector(const R* component, const R& factor) {
@@ -49,51 +53,62 @@ template <class R> SANDLANE_INLINE Vector<R> vector(const R* component, const R&
 }
 
 // The relative state of eight pairs from their combined records.
-template <class Arch, int dimension, class Tangential>
+template <class Arch, int dimension, class Tangential, bool couples>
 SANDLANE_INLINE laws::ContactState<dimension, Block<Arch>>
 contact_state(const PairView& view, const std::int32_t* i, const std::int32_t* j,
               const Block<Arch> (&field)[record_fields]) {
     using R = Block<Arch>;
     using Fields = Record<dimension>;
     const R rate(view.inverse_dt), zero(0.0);
+    laws::ContactState<dimension, R> state;
+    state.radius_sum = field[Fields::radius];
+    state.inverse_radii = field[Fields::inverse_radius];
     if constexpr (dimension == 2) {
-        const R spin = Tangential::needs_spin ? rate * field[Fields::spin] : zero;
-        return {field[0],
-                field[1],
-                rate * field[2],
-                rate * field[3],
-                spin,
-                field[Fields::radius],
-                field[Fields::inverse_radius]};
+        state.dx = field[0];
+        state.dy = field[1];
+        state.dvx = rate * field[2];
+        state.dvy = rate * field[3];
+        state.spin = Tangential::needs_spin ? rate * field[Fields::spin] : zero;
     } else {
         R spin[spin_fields] = {zero, zero, zero, zero}, turn[spin_fields] = {zero, zero, zero, zero};
         if constexpr (Tangential::needs_spin) CombineSpins<Arch>::apply(view.spins, i, j, spin, turn);
-        return {{field[0], field[1], field[2]},
-                vector(field + Fields::velocity, rate),
-                vector(spin, rate),
-                vector(turn, rate),
-                field[Fields::radius],
-                field[Fields::inverse_radius]};
+        state.d = {field[0], field[1], field[2]};
+        state.dv = vector(field + Fields::velocity, rate);
+        state.spin = vector(spin, rate);
+        state.turn = vector(turn, rate);
     }
+    if constexpr (couples) {
+        const Turns<Arch, dimension> turns(view.records, view.spins, i, j);
+        if constexpr (dimension == 2) {
+            state.turn = rate * turns.turn[0];
+            state.differ = rate * turns.differ[0];
+        } else {
+            state.differ = vector(turns.differ, rate);
+        }
+        state.radius = turns.first;
+        state.square_difference = turns.first * turns.first - turns.second * turns.second;
+    }
+    return state;
 }
 
 // Eight force rows of pair_force's results.
 template <class Arch, int fields>
 SANDLANE_INLINE void store_force(const laws::PairForce<Block<Arch>>& f, double* rows) {
-    const Block<Arch> row[4] = {f.x, f.y, f.tangential, Block<Arch>(0.0)};
+    const Block<Arch> row[4] = {f.x, f.y, f.tangential, f.couple};
     Rows<Arch, 4>::store(row, rows);
 }
 template <class Arch, int fields>
 SANDLANE_INLINE void store_force(const laws::SpatialForce<Block<Arch>>& f, double* rows) {
     const Block<Arch> zero(0.0);
-    if constexpr (fields == 8) {
-        const Block<Arch> row[8] = {f.force.x,   f.force.y,   f.force.z,   zero,
-                                    f.turning.x, f.turning.y, f.turning.z, zero};
-        Rows<Arch, 8>::store(row, rows);
-    } else {
-        const Block<Arch> row[4] = {f.force.x, f.force.y, f.force.z, zero};
-        Rows<Arch, 4>::store(row, rows);
+    const Vector<Block<Arch>> parts[3] = {f.force, f.turning, f.couple};
+    Block<Arch> row[fields];
+    for (int p = 0; p < fields / 4; ++p) {
+        row[4 * p] = parts[p].x;
+        row[4 * p + 1] = parts[p].y;
+        row[4 * p + 2] = parts[p].z;
+        row[4 * p + 3] = zero;
     }
+    Rows<Arch, fields>::store(row, rows);
 }
 
 template <class Arch, int dimension, int fields>
@@ -117,11 +132,16 @@ SANDLANE_INLINE void add_forces(double* force, const std::int32_t* i, const std:
     }
 }
 
-template <class Arch, int dimension, class Normal, class Tangential, bool many_materials>
+template <class Tangential, bool couples>
+inline constexpr Rotation rotation_of = couples                  ? Rotation::couples
+                                        : Tangential::needs_spin ? Rotation::friction
+                                                                 : Rotation::none;
+
+template <class Arch, int dimension, class Normal, class Tangential, bool couples, bool many_materials>
 double pair_forces(const PairView& view, const std::int32_t* i, const std::int32_t* j, std::int32_t count,
                    Target target, double largest_overlap) {
     using R = Block<Arch>;
-    constexpr int fields = force_stride(dimension, Tangential::needs_spin);
+    constexpr int fields = force_stride(dimension, rotation_of<Tangential, couples>);
     alignas(64) double rows[pair_chunk * fields];
     laws::PairCoefficients<R> coefficients;
     if constexpr (!many_materials) coefficients = laws::coefficients_from<R>(view.coefficients);
@@ -134,8 +154,8 @@ double pair_forces(const PairView& view, const std::int32_t* i, const std::int32
             CombinePairs<Arch, dimension>::apply(view.records, a, b, field);
             (void)separate<Arch, dimension>(view, field);
             if constexpr (many_materials) coefficients = gather_coefficients<Arch>(view, a, b);
-            const auto f = laws::pair_force<Normal, Tangential>(
-                contact_state<Arch, dimension, Tangential>(view, a, b, field), coefficients);
+            const auto f = laws::pair_force<Normal, Tangential, couples>(
+                contact_state<Arch, dimension, Tangential, couples>(view, a, b, field), coefficients);
             most = max(f.overlap, most);
             store_force<Arch, fields>(f, rows + n * fields);
         }

@@ -20,10 +20,10 @@ template <int force_fields> struct Contacts {
 };
 
 // Whether the laws read field f of combined records.
-template <int dimension, class Normal, class Tangential> [[nodiscard]] constexpr bool reads(int f) {
+template <int dimension, class Normal, class Tangential, bool couples> [[nodiscard]] constexpr bool reads(int f) {
     using Fields = Record<dimension>;
     if (dimension == 2 && f == Fields::spin) return Tangential::needs_spin;
-    if (f == Fields::inverse_radius) return Normal::needs_radius;
+    if (f == Fields::inverse_radius) return Normal::needs_radius || couples;
     return f < Fields::sums || f == Fields::radius;
 }
 
@@ -41,7 +41,7 @@ template <int dimension, bool spin> SANDLANE_INLINE void prefetch_grain(const Pa
     if (dimension == 3 && spin) __builtin_prefetch(view.spins + std::ptrdiff_t{j} * spin_fields);
 }
 
-template <class Arch, int dimension, bool images, class Normal, class Tangential, class Packed>
+template <class Arch, int dimension, bool images, class Normal, class Tangential, bool couples, class Packed>
 SANDLANE_INLINE void pack_contacts(const PairView& view, const TileList& list, std::int32_t first, int size,
                                    Packed& c) {
     using R = Block<Arch>;
@@ -61,7 +61,7 @@ SANDLANE_INLINE void pack_contacts(const PairView& view, const TileList& list, s
         if (size - n < width) touching &= (1u << (size - n)) - 1u;
         const int at = c.count;
         for (int f = 0; f < record_fields; ++f)
-            if (reads<dimension, Normal, Tangential>(f)) compress(field[f], touching, c.field[f] + at);
+            if (reads<dimension, Normal, Tangential, couples>(f)) compress(field[f], touching, c.field[f] + at);
         if constexpr (memory > 0) {
             const std::int32_t here[width] = {n, n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7};
             Integers<Arch, width>(here).compress(touching, c.place + at);
@@ -74,12 +74,12 @@ SANDLANE_INLINE void pack_contacts(const PairView& view, const TileList& list, s
 }
 
 // Lanes behind the last contact repeat it, so that they hold numbers.
-template <int dimension, class Normal, class Tangential, class Packed>
+template <int dimension, class Normal, class Tangential, bool couples, class Packed>
 SANDLANE_INLINE void pad_contacts(Packed& c) {
     const int last = c.count - 1;
     for (int n = c.count; n % width != 0; ++n) {
         for (int f = 0; f < record_fields; ++f)
-            if (reads<dimension, Normal, Tangential>(f)) c.field[f][n] = c.field[f][last];
+            if (reads<dimension, Normal, Tangential, couples>(f)) c.field[f][n] = c.field[f][last];
         if (laws::memory_of < Normal, Tangential, dimension >> 0) c.place[n] = c.place[last];
         c.i[n] = c.i[last];
         c.j[n] = c.j[last];
@@ -90,9 +90,9 @@ SANDLANE_INLINE void pad_contacts(Packed& c) {
 template <class Arch, int memory>
 SANDLANE_INLINE void load_memory(const double* rows, const std::int32_t* place, Block<Arch> (&held)[memory + 1]) {
     constexpr int doubles = memory_row(memory);
-    if constexpr (doubles == 4) {
-        Block<Arch> row[4];
-        Rows<Arch, 4>::gather(rows, place, row);
+    if constexpr (doubles >= 4) {
+        Block<Arch> row[doubles];
+        Rows<Arch, doubles>::gather(rows, place, row);
         for (int m = 0; m < memory; ++m) held[m] = row[m];
     } else {
         double lanes[doubles + 1][width];
@@ -104,10 +104,10 @@ SANDLANE_INLINE void load_memory(const double* rows, const std::int32_t* place, 
 template <class Arch, int memory>
 SANDLANE_INLINE void store_memory(const Block<Arch> (&held)[memory + 1], double* rows, const std::int32_t* place) {
     constexpr int doubles = memory_row(memory);
-    if constexpr (doubles == 4) {
-        Block<Arch> row[4];
-        for (int m = 0; m < 4; ++m) row[m] = m < memory ? held[m] : Block<Arch>(0.0);
-        Rows<Arch, 4>::scatter(row, rows, place);
+    if constexpr (doubles >= 4) {
+        Block<Arch> row[doubles];
+        for (int m = 0; m < doubles; ++m) row[m] = m < memory ? held[m] : Block<Arch>(0.0);
+        Rows<Arch, doubles>::scatter(row, rows, place);
     } else {
         double lanes[doubles + 1][width];
         for (int m = 0; m < memory; ++m) store(lanes[m], held[m]);
@@ -116,11 +116,11 @@ SANDLANE_INLINE void store_memory(const Block<Arch> (&held)[memory + 1], double*
     }
 }
 
-template <class Arch, int dimension, class Normal, class Tangential, bool many_materials>
+template <class Arch, int dimension, class Normal, class Tangential, bool couples, bool many_materials>
 double tile_forces(const PairView& view, const TileList& list, double* force, double largest_overlap) {
     using R = Block<Arch>;
     constexpr int memory = laws::memory_of<Normal, Tangential, dimension>, doubles = memory_row(memory);
-    constexpr int fields = force_stride(dimension, Tangential::needs_spin);
+    constexpr int fields = force_stride(dimension, rotation_of<Tangential, couples>);
     using Row = ForceRow<Arch, dimension, fields>;
     Contacts<fields> c;
     laws::PairCoefficients<R> coefficients;
@@ -132,18 +132,18 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
         const int size = list.count - first < tile_chunk ? list.count - first : tile_chunk;
         double* const remembered = list.memory + std::ptrdiff_t{first} * doubles;
         if (list.images)
-            pack_contacts<Arch, dimension, true, Normal, Tangential>(view, list, first, size, c);
+            pack_contacts<Arch, dimension, true, Normal, Tangential, couples>(view, list, first, size, c);
         else
-            pack_contacts<Arch, dimension, false, Normal, Tangential>(view, list, first, size, c);
-        pad_contacts<dimension, Normal, Tangential>(c);
+            pack_contacts<Arch, dimension, false, Normal, Tangential, couples>(view, list, first, size, c);
+        pad_contacts<dimension, Normal, Tangential, couples>(c);
         for (int n = 0; n < c.count; n += width) {
             if constexpr (many_materials) coefficients = gather_coefficients<Arch>(view, c.i + n, c.j + n);
             R field[record_fields], held[memory + 1];
             for (int f = 0; f < record_fields; ++f)
-                field[f] = reads<dimension, Normal, Tangential>(f) ? load<Arch>(c.field[f] + n) : R(1.0);
+                field[f] = reads<dimension, Normal, Tangential, couples>(f) ? load<Arch>(c.field[f] + n) : R(1.0);
             load_memory<Arch, memory>(remembered, c.place + n, held);
-            const auto f = laws::pair_force<Normal, Tangential>(
-                contact_state<Arch, dimension, Tangential>(view, c.i + n, c.j + n, field), coefficients, held,
+            const auto f = laws::pair_force<Normal, Tangential, couples>(
+                contact_state<Arch, dimension, Tangential, couples>(view, c.i + n, c.j + n, field), coefficients, held,
                 elapsed);
             store_memory<Arch, memory>(held, remembered, c.place + n);
             most = max(f.overlap, most);

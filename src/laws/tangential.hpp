@@ -3,10 +3,11 @@
 #pragma once
 
 #include "core/vector.hpp"
+#include "laws/cube_root.hpp"
 
 namespace sandlane::laws {
 
-// f_n >= 0 normal force [N], rate v_t of the surfaces along t [m/s], coefficients of the pair of
+// Load f_n >= 0 [N] that presses the surfaces together, rate v_t of the surfaces along t [m/s], coefficients of the pair of
 // materials, time since the last evaluation [s].
 template <class R> struct TangentialInput {
     R normal_force, rate;
@@ -26,8 +27,9 @@ template <class R> struct SpatialInput {
 // A law returns f_t on grain i along t, or as a vector [N]. `memory` numbers per contact (`memory_in_space`
 // in 3D) live as long as the contact does; both partners see the same numbers in 2D and opposite ones in 3D.
 // At its first evaluation they are zero, and so is the time elapsed. Laws without memory do not look at them.
+// in_space: the law has a form in 3D.
 struct Frictionless {
-    static constexpr bool needs_spin = false, needs_twist = false;
+    static constexpr bool needs_spin = false, needs_twist = false, in_space = true;
     static constexpr int memory = 0, memory_in_space = 0;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>&, R*) { return R(0.0); }
     template <class R> static SANDLANE_INLINE Vector<R> force(const SpatialInput<R>&, R*) {
@@ -39,7 +41,7 @@ struct Frictionless {
 
 // f_t = -sign(v_t) min(gamma_t |v_t|, mu f_n) (2.18), written as a clamp so that v_t = 0 gives zero.
 struct HaffWerner {
-    static constexpr bool needs_spin = true, needs_twist = false;
+    static constexpr bool needs_spin = true, needs_twist = false, in_space = true;
     static constexpr int memory = 0, memory_in_space = 0;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R*) {
         const R limit = c.friction * c.normal_force;
@@ -58,7 +60,7 @@ struct HaffWerner {
 // f_t = -k_t zeta - gamma_t v_t, at most mu f_n; while the contact slides zeta is what gives just that force,
 // so that it lets go at once when the motion reverses. memory: zeta [m].
 struct CundallStrack {
-    static constexpr bool needs_spin = true, needs_twist = true;
+    static constexpr bool needs_spin = true, needs_twist = true, in_space = true;
     static constexpr int memory = 1, memory_in_space = 3;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R* zeta) {
         const R zero(0.0);
@@ -111,6 +113,32 @@ private:
         const R stretch = sqrt(dot(old, old) / square);
         return select(square > R(0.0), stretch, R(0.0)) * turned;
     }
+};
+
+// A tangential stiffness that falls from k_0 to zero at Coulomb's limit and starts anew at every reversal
+// (2.22)-(2.23), with the exponent 1/3. stiffness = k_0 [N/m]. memory: F, F* [N], sign of the last displacement,
+// load at the last evaluation [N]. In the plane only.
+struct WaltonBraunTangential {
+    static constexpr bool needs_spin = true, needs_twist = false, in_space = false;
+    static constexpr int memory = 4, memory_in_space = 0;
+    template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R* m) {
+        const R zero(0.0), one(1.0), limit = c.friction * c.normal_force;
+        const R scaled = select(m[3] > zero, m[1] * (c.normal_force / m[3]), zero);
+        const R f = max(min(m[0], limit), -limit), last = max(min(scaled, limit), -limit);
+        const R shift = c.elapsed * c.rate;
+        const R turn = select(zero > shift * m[2], f, last);
+        const auto grows = shift > zero;
+        const R room = select(grows, limit - f, limit + f), whole = select(grows, limit - turn, limit + turn);
+        const R part = max(min(room / whole, one), zero);
+        const R stiffness = select(whole > R(1e-12) * limit, c.stiffness * cube_root(part), zero);
+        m[0] = max(min(f + stiffness * shift, limit), -limit);
+        m[1] = turn;
+        m[2] = select(grows, one, select(zero > shift, -one, m[2]));
+        m[3] = c.normal_force;
+        return -m[0];
+    }
+    // What it holds is not told from what it lost: none is counted.
+    template <class R> static SANDLANE_INLINE R energy(const R&, const R*) { return R(0.0); }
 };
 
 } // namespace sandlane::laws

@@ -29,33 +29,43 @@ ContactForce evaluate(const laws::SpatialForce<double>& f) {
 }
 
 // `remembered`: what the contact holds, or null if it is new.
-template <class Normal, class Tangential, int dimension>
+template <class Normal, class Tangential, int dimension, bool couples>
 ContactForce contact_force(const Relative& s, const Coefficients& c, const double* remembered) {
     constexpr int numbers = laws::memory_of<Normal, Tangential, dimension>;
     double memory[numbers + 1] = {laws::no_contact};
     if (remembered != nullptr) std::copy_n(remembered, numbers, memory);
     ContactForce f;
     if constexpr (dimension == 3) {
-        f = evaluate(laws::pair_force<Normal, Tangential, double>(s, c, memory, 0.0));
+        f = evaluate(laws::pair_force<Normal, Tangential, couples>(s, c, memory, 0.0));
     } else {
-        const laws::PairState<double> plane{
-            s.d.x, s.d.y, s.dv.x, s.dv.y, s.spin.z, s.radius_sum, s.inverse_reduced_radius};
-        f = evaluate(laws::pair_force<Normal, Tangential, double>(plane, c, memory, 0.0));
+        const laws::PairState<double> plane{s.d.x,        s.d.y,           s.dv.x,     s.dv.y,     s.spin.z,
+                                            s.radius_sum, s.inverse_radii, s.turn.z,   s.differ.z, s.radius,
+                                            s.square_difference};
+        f = evaluate(laws::pair_force<Normal, Tangential, couples>(plane, c, memory, 0.0));
     }
-    const laws::NormalInput<double> normal{f.overlap, 0, c.elastic, c.dissipative, s.inverse_reduced_radius};
-    f.energy = laws::elastic_energy<Normal, Tangential, dimension>(normal, c.tangential_stiffness, memory);
+    f.energy = laws::elastic_energy<Normal, Tangential, dimension>(f.overlap, s.inverse_radii, c, memory);
     return f;
 }
 
 using ContactKernel = ContactForce (*)(const Relative&, const Coefficients&, const double*);
+
+template <class Normal, class Tangential, int dimension> ContactKernel with_couples(const Plan& plan) {
+    if constexpr (!laws::exists_in<Tangential, dimension>) {
+        return nullptr;
+    } else {
+        if constexpr (Tangential::needs_spin)
+            if (has_couples(plan)) return contact_force<Normal, Tangential, dimension, true>;
+        return contact_force<Normal, Tangential, dimension, false>;
+    }
+}
 
 template <class Normal> ContactKernel with_tangential(const Plan& plan) {
     int position = 0;
     ContactKernel kernel = nullptr;
 #define TANGENTIAL(type, choice, name)                                                                       \
     if (position++ == plan.tangential)                                                                       \
-        kernel = plan.dimension == 3 ? contact_force<Normal, laws::type, 3>                                  \
-                                     : contact_force<Normal, laws::type, 2>;
+        kernel = plan.dimension == 3 ? with_couples<Normal, laws::type, 3>(plan)                             \
+                                     : with_couples<Normal, laws::type, 2>(plan);
 #include "laws/laws.def"
     return kernel;
 }
@@ -101,12 +111,16 @@ private:
             const double reach = state_.radius(i) + state_.radius(j);
             if (!(dot(d, d) < reach * reach)) return;
             const Vec dv = rate_ * (state_.shift(j) - state_.shift(i));
+            const double ri = state_.radius(i), rj = state_.radius(j);
             const Relative s{vector(d),
                              vector(dv),
                              vector(spin(i) + spin(j)),
                              vector(rate_ * (state_.turn(i) + state_.turn(j))),
                              reach,
-                             state_.inverse_radius(i) + state_.inverse_radius(j)};
+                             state_.inverse_radius(i) + state_.inverse_radius(j),
+                             vector(rate_ * (state_.turn(i) - state_.turn(j))),
+                             ri,
+                             ri * ri - rj * rj};
             const bool known = memories_.pairs.find(state_.id[i], state_.id[j], memory);
             const ContactForce f =
                 kernel_(s, coefficients_of(state_.material[i], state_.material[j]), known ? memory : nullptr);
@@ -162,7 +176,7 @@ GrainEnergy energies_of(const scene::Scene& scene, const Plan& plan, const State
         state.position(i) - plan.lower +
         Vec{state.images(i, 0) * size.x, state.images(i, 1) * size.y, state.images(i, 2) * size.z};
     GrainEnergy e{0.5 * m * dot(v, v), 0, -m * dot(g, unwrapped)};
-    if (!state.rotation) return e;
+    if (!state.turns()) return e;
     const Vec omega = rate * state.turn(i);
     const double inertia = plan.inertia_factor * m * state.radius(i) * state.radius(i);
     e.rotational = 0.5 * inertia * dot(omega, omega);

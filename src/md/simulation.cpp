@@ -125,7 +125,7 @@ void Simulation::integrate(bool correct, bool predict) {
 
 simd::MotionKernel Simulation::motion_kernel(bool correct, bool predict) const {
     const auto& table = correct ? (predict ? kernels().advance : kernels().correct) : kernels().predict;
-    return table[plan_.order - 3][plan_.rotation ? 1 : 0];
+    return table[plan_.order - 3][static_cast<int>(plan_.rotation)];
 }
 
 // One pass over the tiles: forces at the predicted positions, correction, and the next prediction, whose
@@ -160,8 +160,7 @@ void Simulation::forces_and_motion(bool predict) {
 // Forces on the grains of a tile in the calling thread's accumulator, which the motion kernel clears.
 double* Simulation::add_tile_forces(std::size_t tile) {
     double* force = accumulators_[static_cast<std::size_t>(thread_index())].data();
-    const simd::TileKernel kernel =
-        kernels().tile[plan_.normal][plan_.tangential][plan_.many_materials ? 1 : 0];
+    const simd::TileKernel kernel = law().tile[has_couples(plan_) ? 1 : 0][plan_.many_materials ? 1 : 0];
     tile_overlaps_[tile] = kernel(pair_view(), lists_.tile(tile, state_), force, 0.0);
     if (!walls_.empty())
         wall_results_[tile] = walls_.add_forces(wall_input(force, tile * tile_size), tile, state_.size(),
@@ -239,8 +238,7 @@ std::vector<double> Simulation::take_forces() {
 }
 
 void Simulation::pair_forces() {
-    const simd::PairKernel pair =
-        kernels().pair[plan_.normal][plan_.tangential][plan_.many_materials ? 1 : 0];
+    const simd::PairKernel pair = law().pair[has_couples(plan_) ? 1 : 0][plan_.many_materials ? 1 : 0];
     const simd::PairView pairs = pair_view();
     const bool on_lattice = is_lattice(plan_.neighbours);
     if (!on_lattice) cells_.build(state_, kernels().bin, plan_.threads);

@@ -86,6 +86,9 @@ private:
     void move_walls();
     [[nodiscard]] simd::MotionKernel motion_kernel(bool correct, bool predict) const;
     [[nodiscard]] const simd::DimensionKernels& kernels() const { return kernels_->in(plan_.dimension); }
+    [[nodiscard]] const simd::DimensionKernels::Law& law() const {
+        return kernels().law[plan_.normal][plan_.tangential];
+    }
     [[nodiscard]] double* add_tile_forces(std::size_t tile);
     [[nodiscard]] md::WallInput wall_input(double* force, std::size_t first) const;
     [[nodiscard]] bool is_inside(Vec p) const;

@@ -27,7 +27,7 @@ double State::largest_radius() const {
 }
 
 Vec State::turn(std::size_t i) const {
-    if (!rotation) return {};
+    if (!turns()) return {};
     if (dimension == 2)
         return {0, 0, record_of(i)[simd::Record<2>::spin] * record_of(i)[simd::Record<2>::inverse_radius]};
     const double* s = spin.data() + i * simd::spin_fields;
@@ -35,7 +35,7 @@ Vec State::turn(std::size_t i) const {
 }
 
 double State::angle(std::size_t i) const {
-    if (!rotation || dimension == 3) return 0;
+    if (!turns() || dimension == 3) return 0;
     return record_of(i)[simd::Record<2>::angle] * record_of(i)[simd::Record<2>::inverse_radius];
 }
 
@@ -83,7 +83,7 @@ void State::append(const scene::GrainState& grain, double dt) {
     const Vec p = grain.position, v = dt * grain.velocity, w = dt * grain.angular_velocity;
     const double r = grain.radius, inverse = 1.0 / grain.radius;
     if (dimension == 2) {
-        const double arc = rotation ? r * (grain.omega * dt) : 0.0, angle = rotation ? r * grain.angle : 0.0;
+        const double arc = turns() ? r * (grain.omega * dt) : 0.0, angle = turns() ? r * grain.angle : 0.0;
         const double fields[] = {p.x, p.y, v.x, v.y, arc, r, inverse, angle};
         std::copy_n(fields, simd::record_fields, record_of(i));
     } else {
@@ -100,11 +100,15 @@ void State::append(const scene::GrainState& grain, double dt) {
 void State::set_accelerations(std::size_t i, const double* forces, const simd::MotionView& view) {
     const double m = inverse_mass[i], of_torque = view.inverse_inertia * m;
     for (int d = 0; d < dimension; ++d) value(i, d, 2) = view.half_dt2 * (forces[d] * m + view.gravity[d]);
-    if (!rotation) return;
+    if (!turns()) return;
+    const auto torque = [&](int at, int couple) { // over R
+        const bool couples = rotation == simd::Rotation::couples;
+        return couples ? forces[at] + forces[couple] * inverse_radius(i) : forces[at];
+    };
     if (dimension == 2)
-        value(i, 2, 2) = view.half_dt2 * (forces[2] * of_torque + radius(i) * view.gravity_spin);
+        value(i, 2, 2) = view.half_dt2 * (torque(2, 3) * of_torque + radius(i) * view.gravity_spin);
     for (int d = 0; dimension == 3 && d < 3; ++d)
-        value(i, 3 + d, 2) = view.half_dt2 * (forces[4 + d] * (of_torque * inverse_radius(i)));
+        value(i, 3 + d, 2) = view.half_dt2 * (torque(4 + d, 8 + d) * (of_torque * inverse_radius(i)));
 }
 
 void State::reorder(std::span<const std::uint32_t> order_of) {

@@ -19,7 +19,7 @@ inline constexpr std::size_t tile_size = simd::tile_grains;
 // sides no images.
 struct State {
     int dimension = 2, order = 5; // stored derivatives
-    bool rotation = false;
+    simd::Rotation rotation = simd::Rotation::none;
     // Position and displacement per step are the integrator's values k = 0 and 1; they live in the records
     // that the pair kernels read (simd/records.hpp). Values k >= 2: [block][dof * (order - 2) + k - 2][lane],
     // Nordsieck-scaled (docs/physics.md 7).
@@ -37,7 +37,8 @@ struct State {
     [[nodiscard]] std::size_t size() const { return mass.size(); }
     [[nodiscard]] std::size_t tiles() const { return (size() + tile_size - 1) / tile_size; }
     [[nodiscard]] std::size_t bytes() const;
-    [[nodiscard]] int dofs() const { return simd::degrees_of_freedom(dimension, rotation); }
+    [[nodiscard]] bool turns() const { return rotation != simd::Rotation::none; }
+    [[nodiscard]] int dofs() const { return simd::degrees_of_freedom(dimension, turns()); }
     [[nodiscard]] std::size_t force_stride() const {
         return static_cast<std::size_t>(simd::force_stride(dimension, rotation));
     }
@@ -88,7 +89,7 @@ private:
         body(self.id, std::size_t{1});
     }
     [[nodiscard]] std::size_t spin_fields() const {
-        return dimension == 3 && rotation ? std::size_t{simd::spin_fields} : 0;
+        return dimension == 3 && turns() ? std::size_t{simd::spin_fields} : 0;
     }
     [[nodiscard]] Vec vector_at(std::size_t i, int field) const {
         const double* r = record_of(i) + field;

@@ -36,7 +36,7 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
                                            r[6] + c.inverse_radius};
         double held[memory + 1];
         for (int m = 0; m < memory; ++m) held[m] = remembered[m * input.stride];
-        const auto f = laws::pair_force<Normal, Tangential, double>(pair, laws::coefficients_from<double>(k),
+        const auto f = laws::pair_force<Normal, Tangential>(pair, laws::coefficients_from<double>(k),
                                                                     held, input.dt);
         for (int m = 0; m < memory; ++m) remembered[m * input.stride] = held[m];
         double* force = input.force + (i - input.first) * 4;

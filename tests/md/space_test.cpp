@@ -217,7 +217,7 @@ TEST(Space, SpringOfARigidlyTurningPairKeepsItsLength) {
                                                {turn.x, turn.y, turn.z},
                                                2.0,
                                                2.0};
-        (void)laws::pair_force<laws::LinearDashpot, laws::CundallStrack, double>(state, c, zeta, dt);
+        (void)laws::pair_force<laws::LinearDashpot, laws::CundallStrack>(state, c, zeta, dt);
     }
     const Vec expected = rotate(turned, first), now{zeta[0], zeta[1], zeta[2]};
     EXPECT_NEAR(norm(now), norm(first), 1e-10 * norm(first));

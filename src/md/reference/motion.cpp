@@ -50,10 +50,11 @@ void settle(const MotionView& view, std::int64_t i, double* record, MotionResult
     if (shift2 > result.largest_shift2) result.largest_shift2 = shift2;
 }
 
-template <int dimension, int order, bool rotation, bool do_correct, bool do_predict>
+template <int dimension, int order, Rotation rotation, bool do_correct, bool do_predict>
 MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t end) {
     using Fields = Record<dimension>;
-    constexpr int dofs = degrees_of_freedom(dimension, rotation), fields = force_stride(dimension, rotation);
+    constexpr bool turns = rotation != Rotation::none, couples = rotation == Rotation::couples;
+    constexpr int dofs = degrees_of_freedom(dimension, turns), fields = force_stride(dimension, rotation);
     MotionResult result;
     for (std::int64_t i = begin; i < end; ++i) {
         double* gear = view.gear + (i - i % 8) * dofs * (order - 2) + i % 8;
@@ -70,15 +71,19 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
         for (int d = 0; d < dimension; ++d)
             step(d, record[d], record[dimension + d], force[d] * inverse_mass + view.gravity[d]);
         const double of_torque = view.inverse_inertia * inverse_mass;
-        if constexpr (rotation && dimension == 2)
+        const auto torque = [&](int at, int couple) { // over R
+            return couples ? force[at] + force[couple] * record[Fields::inverse_radius] : force[at];
+        };
+        if constexpr (turns && dimension == 2)
             step(2, record[Fields::angle], record[Fields::spin],
-                 force[2] * of_torque + record[Fields::radius] * view.gravity_spin);
-        if constexpr (rotation && dimension == 3) {
+                 torque(2, 3) * of_torque + record[Fields::radius] * view.gravity_spin);
+        if constexpr (turns && dimension == 3) {
             double* spin = view.new_spins + i * spin_fields;
             std::copy_n(view.spins + i * spin_fields, spin_fields, spin);
             for (int d = 0; d < 3; ++d) {
                 double no_angle = 0;
-                step(3 + d, no_angle, spin[d], force[4 + d] * (of_torque * record[Fields::inverse_radius]));
+                step(3 + d, no_angle, spin[d],
+                     torque(4 + d, 8 + d) * (of_torque * record[Fields::inverse_radius]));
             }
         }
         if (do_predict) settle<dimension>(view, i, record, result);
@@ -110,20 +115,22 @@ template <int dimension> void bin_sites(const BinView& view, std::int64_t begin,
     }
 }
 
-template <int dimension, int order, bool rotation> void fill(DimensionKernels& t) {
-    t.predict[order - 3][rotation] = gear_step<dimension, order, rotation, false, true>;
-    t.correct[order - 3][rotation] = gear_step<dimension, order, rotation, true, false>;
-    t.advance[order - 3][rotation] = gear_step<dimension, order, rotation, true, true>;
+template <int dimension, int order, Rotation rotation> void fill(DimensionKernels& t) {
+    constexpr int r = static_cast<int>(rotation);
+    t.predict[order - 3][r] = gear_step<dimension, order, rotation, false, true>;
+    t.correct[order - 3][r] = gear_step<dimension, order, rotation, true, false>;
+    t.advance[order - 3][r] = gear_step<dimension, order, rotation, true, true>;
+}
+template <int dimension, int order> void fill_rotations(DimensionKernels& t) {
+    fill<dimension, order, Rotation::none>(t);
+    fill<dimension, order, Rotation::friction>(t);
+    fill<dimension, order, Rotation::couples>(t);
 }
 template <int dimension> void fill_dimension(DimensionKernels& t) {
-    fill<dimension, 3, false>(t);
-    fill<dimension, 3, true>(t);
-    fill<dimension, 4, false>(t);
-    fill<dimension, 4, true>(t);
-    fill<dimension, 5, false>(t);
-    fill<dimension, 5, true>(t);
-    fill<dimension, 6, false>(t);
-    fill<dimension, 6, true>(t);
+    fill_rotations<dimension, 3>(t);
+    fill_rotations<dimension, 4>(t);
+    fill_rotations<dimension, 5>(t);
+    fill_rotations<dimension, 6>(t);
     t.bin = bin_sites<dimension>;
 }
 
