@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 namespace sandlane::scene {
 
@@ -182,6 +183,18 @@ std::vector<WallPiece> walls_at_start(const Scene& scene) {
             add_pieces(pieces, scene.walls[w], static_cast<int>(w));
     }
     return pieces;
+}
+
+Gap gap(const SurfacePiece& piece, Vec p) {
+    if (const auto* plane = std::get_if<PlanePiece>(&piece))
+        return {distance_from(piece, p), plane->normal};
+    return from_point(p, closest_point(piece, p));
+}
+
+SurfacesAtStart::SurfacesAtStart(const Scene& scene) : surfaces_(scene) {
+    standing_.push_back(Surfaces::frame_of(-1));
+    for (std::size_t m = 0; m < scene.motions.size(); ++m)
+        if (stands_as_given(scene.motions[m])) standing_.push_back(Surfaces::frame_of(static_cast<int>(m)));
 }
 
 } // namespace sandlane::scene
