@@ -92,7 +92,7 @@ private:
     }
 
     [[nodiscard]] Found with_wall(std::size_t i, std::size_t e, const WallContact& c) const {
-        const WallElement& element = walls_.elements()[e];
+        const WallElement& element = walls_.element(e);
         const laws::PairState<double> s{c.distance * c.direction.x,
                                         c.distance * c.direction.y,
                                         c.velocity.x - state_.value(i, 0, 1) * rate_,

@@ -32,8 +32,8 @@ void oscillate(RigidState& state, const scene::Motion& m, double time) {
 }
 
 // Drum whose centre runs on a circle of orbit_radius about m.centre while it spins: positions are given for a
-// drum centred at m.centre, so the shift is the orbit itself (type 4). The orbit lies across the axis and starts
-// along x, or along y where the axis leads close to x.
+// drum centred at m.centre, so the shift is the orbit itself (type 4). The orbit lies across the axis and
+// starts along x, or along y where the axis leads close to x.
 void planetary(RigidState& state, const scene::Motion& m, double time) {
     const double argument = m.orbit_omega * (time - m.start) + m.phase;
     const Vec axis = unit_axis(m), start = std::abs(axis.x) < 0.9 ? Vec{1, 0, 0} : Vec{0, 1, 0};

@@ -91,9 +91,8 @@ private:
     }
 
     static bool same(std::string_view word, std::string_view keyword) {
-        return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), [](char a, char b) {
-            return std::tolower(static_cast<unsigned char>(a)) == b;
-        });
+        return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
+                          [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
     }
     static bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
@@ -141,7 +140,8 @@ bool is_text(std::string_view content) {
 
 // ---- from corners to points
 
-// Height of a triangle over its longest side that counts as an area: coordinates of binary files have 24 bits.
+// Height of a triangle over its longest side that counts as an area: coordinates of binary files have 24
+// bits.
 constexpr double thinnest = 1e-7;
 
 bool has_area(Vec a, Vec b, Vec c) {

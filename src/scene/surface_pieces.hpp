@@ -1,6 +1,6 @@
-// Pieces that walls in space are made of, at rest: where a grain touches each, and how far away it is. A grain
-// touches a surface wherever its distance has a local minimum: over a face at the foot of the perpendicular, at
-// an edge or a corner only where no surface that ends there comes closer.
+// Pieces that walls in space are made of, at rest: where a grain touches each, and how far away it is. A
+// grain touches a surface wherever its distance has a local minimum: over a face at the foot of the
+// perpendicular, at an edge or a corner only where no surface that ends there comes closer.
 #pragma once
 
 #include "core/vec.hpp"
@@ -35,8 +35,8 @@ struct CornerPiece {
 struct Axis3 {
     Vec origin, direction; // unit vector
 };
-// Surfaces of revolution. Their profile is given by vectors (along the axis, away from it, 0). A grain inside may
-// be wedged between two sides: the far half of the profile is a piece of its own, of points inside alone.
+// Surfaces of revolution. Their profile is given by vectors (along the axis, away from it, 0). A grain inside
+// may be wedged between two sides: the far half of the profile is a piece of its own, of points inside alone.
 struct BandPiece {
     Axis3 axis;
     Vec from, along; // profile, unit vector
@@ -50,8 +50,7 @@ struct RimPiece {
     bool far = false;
 };
 
-using SurfacePiece =
-    std::variant<PlanePiece, TrianglePiece, EdgePiece, CornerPiece, BandPiece, RimPiece>;
+using SurfacePiece = std::variant<PlanePiece, TrianglePiece, EdgePiece, CornerPiece, BandPiece, RimPiece>;
 
 // Where a sphere touches a piece: from its centre to the surface.
 struct Foot {
@@ -59,8 +58,8 @@ struct Foot {
     Vec direction;       // unit vector to the surface
     bool valid = false;
 };
-// `slack` [m] widens pieces, so that rounding opens no gap between them; what two of them claim, the caller keeps
-// once.
+// `slack` [m] widens pieces, so that rounding opens no gap between them; what two of them claim, the caller
+// keeps once.
 [[nodiscard]] Foot foot(const SurfacePiece& piece, Vec p, double slack);
 
 [[nodiscard]] Vec closest_point(const SurfacePiece& piece, Vec p);

@@ -1,6 +1,7 @@
 #include "scene/surfaces.hpp"
 
 #include "core/file.hpp"
+#include "scene/lookup.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,12 +23,6 @@ constexpr double flat = 1e-7;
 
 Vec unit(Vec v) {
     return (1 / norm(v)) * v;
-}
-
-int motion_of(const Scene& scene, const Wall& wall) {
-    for (std::size_t m = 0; m < scene.motions.size(); ++m)
-        if (scene.motions[m].name == wall.motion) return static_cast<int>(m);
-    return -1;
 }
 
 TriangleMesh placed_mesh(const Wall& wall) {
@@ -58,7 +53,7 @@ Surfaces::Surfaces(const Scene& scene) : frames_(scene.motions.size() + 1) {
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         const std::size_t first = pieces_.size();
         add_wall(scene.walls[w], static_cast<int>(w));
-        Frame& frame = frames_[frame_of(motion_of(scene, scene.walls[w]))];
+        Frame& frame = frames_[frame_of(motion_index(scene, scene.walls[w].motion))];
         for (std::size_t n = first; n < pieces_.size(); ++n) {
             const bool plane = std::holds_alternative<PlanePiece>(pieces_[n].shape);
             (plane ? frame.planes : frame.finite).push_back(static_cast<std::uint32_t>(n));
@@ -75,6 +70,7 @@ Surfaces::Surfaces(const Scene& scene) : frames_(scene.motions.size() + 1) {
 void Surfaces::add_wall(const Wall& wall, int index) {
     switch (wall.kind) {
     case WallKind::plane:
+        endless_.push_back(static_cast<std::uint32_t>(pieces_.size()));
         pieces_.push_back({PlanePiece{wall.points[0], unit(wall.normal)}, index});
         break;
     case WallKind::box:

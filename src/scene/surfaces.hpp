@@ -1,5 +1,5 @@
-// The walls of a scene in space as pieces of surface, where the scene puts them, and which contacts a sphere has
-// with them. Walls with the same motion share a frame, whose coordinates are those of the scene file.
+// The walls of a scene in space as pieces of surface, where the scene puts them, and which contacts a sphere
+// has with them. Walls with the same motion share a frame, whose coordinates are those of the scene file.
 #pragma once
 
 #include "scene/outline.hpp"
@@ -44,13 +44,14 @@ public:
 
     // Adds the contact of a sphere of radius R at p with a piece, if there is one.
     void add_touch(std::size_t n, Vec p, double radius, std::vector<Touch>& found) const;
-    // Keeps one of those that are the same contact of a wall: whose points are closer than R/100, or which lie
-    // on an edge or corner that is as close to a face in contact. Afterwards they are ordered by wall, then
-    // distance.
+    // Keeps one of those that are the same contact of a wall: whose points are closer than R/100, or which
+    // lie on an edge or corner that is as close to a face in contact. Afterwards they are ordered by wall,
+    // then distance.
     void keep_own(double radius, std::vector<Touch>& found) const;
 
-    // What of the walls can be seen, for outputs: not of planes, which end where the domain does.
+    // What of the walls can be seen, for outputs, but for planes that only end where the domain does.
     [[nodiscard]] const std::vector<OutlineTriangle>& outline() const { return outline_; }
+    [[nodiscard]] const std::vector<std::uint32_t>& endless() const { return endless_; }
 
 private:
     struct Piece {
@@ -70,6 +71,7 @@ private:
     std::vector<Piece> pieces_;
     std::vector<Frame> frames_;
     std::vector<OutlineTriangle> outline_;
+    std::vector<std::uint32_t> endless_;
 };
 
 } // namespace sandlane::scene

@@ -1,5 +1,7 @@
 #include "scene/wall_geometry.hpp"
 
+#include "scene/lookup.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -50,12 +52,6 @@ std::vector<GrainItem> row(const Wall& wall) {
         grains.push_back(
             {k == 0 ? from : from + (spacing * k / length) * along, {}, wall.radius, wall.omega});
     return grains;
-}
-
-const Motion* motion_of(const Scene& scene, const Wall& wall) {
-    for (const Motion& m : scene.motions)
-        if (m.name == wall.motion) return &m;
-    return nullptr;
 }
 
 bool stands_as_given(const Motion& m) {
@@ -178,16 +174,15 @@ Gap gap(const WallPiece& piece, Vec p) {
 std::vector<WallPiece> walls_at_start(const Scene& scene) {
     std::vector<WallPiece> pieces;
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
-        const Motion* motion = motion_of(scene, scene.walls[w]);
-        if (motion == nullptr || stands_as_given(*motion))
+        const int motion = motion_index(scene, scene.walls[w].motion);
+        if (motion < 0 || stands_as_given(scene.motions[static_cast<std::size_t>(motion)]))
             add_pieces(pieces, scene.walls[w], static_cast<int>(w));
     }
     return pieces;
 }
 
 Gap gap(const SurfacePiece& piece, Vec p) {
-    if (const auto* plane = std::get_if<PlanePiece>(&piece))
-        return {distance_from(piece, p), plane->normal};
+    if (const auto* plane = std::get_if<PlanePiece>(&piece)) return {distance_from(piece, p), plane->normal};
     return from_point(p, closest_point(piece, p));
 }
 

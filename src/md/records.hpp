@@ -1,0 +1,37 @@
+// A grain as its record tells of it: the one place outside kernels that reads records (simd/records.hpp).
+#pragma once
+
+#include "core/vec.hpp"
+#include "simd/records.hpp"
+
+namespace sandlane::md {
+
+struct RecordedGrain {
+    Vec position, velocity;   // m, m/s
+    double surface_speed = 0; // R omega, m/s: 2D
+    Vec angular_velocity;     // rad/s: 3D
+    double radius = 0, inverse_radius = 0;
+};
+
+// spin: the record of its spin, 3D with rotation, else null. rate: what makes m/s of the velocities of a
+// record.
+template <int dimension>
+[[nodiscard]] RecordedGrain recorded_grain(const double* record, const double* spin, double rate) {
+    using Field = simd::Record<dimension>;
+    const double* v = record + Field::velocity;
+    RecordedGrain g;
+    g.radius = record[Field::radius];
+    g.inverse_radius = record[Field::inverse_radius];
+    if constexpr (dimension == 3) {
+        g.position = {record[0], record[1], record[2]};
+        g.velocity = {v[0] * rate, v[1] * rate, v[2] * rate};
+        if (spin != nullptr) g.angular_velocity = {spin[0] * rate, spin[1] * rate, spin[2] * rate};
+    } else {
+        g.position = {record[0], record[1], 0};
+        g.velocity = {v[0] * rate, v[1] * rate, 0};
+        g.surface_speed = record[Field::spin] * rate;
+    }
+    return g;
+}
+
+} // namespace sandlane::md
