@@ -13,10 +13,10 @@ struct RecordedGrain {
     double radius = 0, inverse_radius = 0;
 };
 
-// spin: the record of its spin, 3D with rotation, else null. rate: what makes m/s of the velocities of a
-// record.
+// spin: the record of its spin, 3D with rotation, else null. inverse_dt: what makes m/s of the velocities of
+// a record.
 template <int dimension>
-[[nodiscard]] RecordedGrain recorded_grain(const double* record, const double* spin, double rate) {
+[[nodiscard]] RecordedGrain recorded_grain(const double* record, const double* spin, double inverse_dt) {
     using Field = simd::Record<dimension>;
     const double* v = record + Field::velocity;
     RecordedGrain g;
@@ -24,12 +24,13 @@ template <int dimension>
     g.inverse_radius = record[Field::inverse_radius];
     if constexpr (dimension == 3) {
         g.position = {record[0], record[1], record[2]};
-        g.velocity = {v[0] * rate, v[1] * rate, v[2] * rate};
-        if (spin != nullptr) g.angular_velocity = {spin[0] * rate, spin[1] * rate, spin[2] * rate};
+        g.velocity = {v[0] * inverse_dt, v[1] * inverse_dt, v[2] * inverse_dt};
+        if (spin != nullptr)
+            g.angular_velocity = {spin[0] * inverse_dt, spin[1] * inverse_dt, spin[2] * inverse_dt};
     } else {
         g.position = {record[0], record[1], 0};
-        g.velocity = {v[0] * rate, v[1] * rate, 0};
-        g.surface_speed = record[Field::spin] * rate;
+        g.velocity = {v[0] * inverse_dt, v[1] * inverse_dt, 0};
+        g.surface_speed = record[Field::spin] * inverse_dt;
     }
     return g;
 }

@@ -115,7 +115,8 @@ WallResult surface_forces(const Walls& walls, const WallInput& input, const Near
         const std::size_t i = first->grain;
         while (last != end && last->grain == i) ++last;
         const double* spin = input.spins != nullptr ? input.spins + i * simd::spin_fields : nullptr;
-        const RecordedGrain g = recorded_grain<3>(input.records + i * simd::record_fields, spin, input.rate);
+        const RecordedGrain g =
+            recorded_grain<3>(input.records + i * simd::record_fields, spin, input.inverse_dt);
         walls.find_contacts(g.position, g.radius, first, last, contacts);
         Candidates candidates{first, last, nullptr, input.stride};
         if constexpr (has_memory) {

@@ -17,7 +17,7 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
     for (const NearWall* n = begin; n != end; ++n) {
         const std::size_t i = n->grain;
         const RecordedGrain g =
-            recorded_grain<2>(input.records + i * simd::record_fields, nullptr, input.rate);
+            recorded_grain<2>(input.records + i * simd::record_fields, nullptr, input.inverse_dt);
         const WallContact c = walls.contact(n->element, g.position);
         const double reach = g.radius + c.radius;
         constexpr int memory = laws::memory_of<Tangential>;

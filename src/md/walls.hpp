@@ -75,15 +75,13 @@ struct WallInput {
     int materials;
     double* force;
     std::size_t first;
-    // Of laws that remember, beside the list of candidates: number f of candidate n at memory[f * stride +
-    // n].
+    // Of laws that remember, beside the list of candidates: number f of candidate n at
+    // memory[f * stride + n].
     const NearWall* near = nullptr;
     double* memory = nullptr;
     std::ptrdiff_t stride = 0;
-    double dt = 0;
-    double rate = 1; // velocities of records times this are m/s
-    // 3D: records of spins, or null; doubles of one force accumulator.
-    const double* spins = nullptr;
+    double dt = 0, inverse_dt = 1; // velocities of records times the second are m/s
+    const double* spins = nullptr; // 3D: records of spins, null without
     int force_stride = simd::force_stride(2, false);
 };
 // Adds the forces of a range of candidates; compiled per law (wall_forces.cpp, surface_forces.cpp).

@@ -18,6 +18,9 @@ namespace {
 // In units of the grain's radius.
 constexpr double same_contact = 0.01;
 constexpr double slack = 1e-6;
+// Faces that come so close to a point share it. Within R/100 of a seam their difference in distance is below
+// this, and points are one contact.
+constexpr double seam = 0.5 * same_contact * same_contact;
 // Edges between faces that lie in one plane, up to this sine, belong to neither: the slack bridges them.
 constexpr double flat = 1e-7;
 
@@ -53,7 +56,8 @@ Surfaces::Surfaces(const Scene& scene) : frames_(scene.motions.size() + 1) {
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         const std::size_t first = pieces_.size();
         add_wall(scene.walls[w], static_cast<int>(w));
-        Frame& frame = frames_[frame_of(motion_index(scene, scene.walls[w].motion))];
+        frame_of_wall_.push_back(frame_of(motion_index(scene, scene.walls[w].motion)));
+        Frame& frame = frames_[frame_of_wall_.back()];
         for (std::size_t n = first; n < pieces_.size(); ++n) {
             const bool plane = std::holds_alternative<PlanePiece>(pieces_[n].shape);
             (plane ? frame.planes : frame.finite).push_back(static_cast<std::uint32_t>(n));
@@ -170,7 +174,24 @@ double Surfaces::farthest(std::size_t frame, Vec p) const {
 void Surfaces::add_touch(std::size_t n, Vec p, double radius, std::vector<Touch>& found) const {
     const Foot at = foot(pieces_[n].shape, p, slack * radius);
     if (!at.valid || !(at.distance < radius)) return;
-    found.push_back({static_cast<std::uint32_t>(n), at, p + at.distance * at.direction});
+    const Touch touch{static_cast<std::uint32_t>(n), at, p + at.distance * at.direction};
+    if (is_face(pieces_[n].shape) || !a_face_leads_closer(touch, radius)) found.push_back(touch);
+}
+
+// An edge knows the faces that share both its ends, but meshes may have others there.
+bool Surfaces::a_face_leads_closer(const Touch& touch, double radius) const {
+    const int own = wall(touch.piece);
+    const Frame& frame = frames_[frame_of_wall_[static_cast<std::size_t>(own)]];
+    const Vec p = touch.point - touch.foot.distance * touch.foot.direction;
+    const double near = seam * radius;
+    bool closer = false;
+    frame.tree.for_near(touch.point, near, [&](std::uint32_t k) {
+        const Piece& other = pieces_[frame.finite[k]];
+        closer = closer || (other.wall == own && is_face(other.shape) &&
+                            distance_from(other.shape, p) < touch.foot.distance - near &&
+                            distance_from(other.shape, touch.point) < near);
+    });
+    return closer;
 }
 
 void Surfaces::keep_own(double radius, std::vector<Touch>& found) const {
@@ -178,12 +199,8 @@ void Surfaces::keep_own(double radius, std::vector<Touch>& found) const {
     const auto place = [&](const Touch& t) { return std::tuple(wall(t.piece), t.foot.distance, t.piece); };
     std::sort(found.begin(), found.end(),
               [&](const Touch& a, const Touch& b) { return place(a) < place(b); });
-    const double reach = same_contact * radius;
     const auto same = [&](const Touch& kept, const Touch& t) {
-        if (wall(kept.piece) != wall(t.piece)) return false;
-        if (norm(kept.point - t.point) < reach) return true;
-        return is_face(piece(kept.piece)) && !is_face(piece(t.piece)) &&
-               std::abs(distance_from(piece(kept.piece), t.point)) < reach;
+        return wall(kept.piece) == wall(t.piece) && norm(kept.point - t.point) < same_contact * radius;
     };
     std::size_t kept = 0;
     for (const Touch& t : found) {

@@ -44,9 +44,8 @@ public:
 
     // Adds the contact of a sphere of radius R at p with a piece, if there is one.
     void add_touch(std::size_t n, Vec p, double radius, std::vector<Touch>& found) const;
-    // Keeps one of those that are the same contact of a wall: whose points are closer than R/100, or which
-    // lie on an edge or corner that is as close to a face in contact. Afterwards they are ordered by wall,
-    // then distance.
+    // Keeps one of those contacts with a wall whose points are closer than R/100: they are the same.
+    // Afterwards they are ordered by wall, then distance.
     void keep_own(double radius, std::vector<Touch>& found) const;
 
     // What of the walls can be seen, for outputs, but for planes that only end where the domain does.
@@ -67,9 +66,11 @@ private:
     void add_box(const Wall& wall, int index);
     void add_revolved(const Wall& wall, int index);
     void add_mesh(const TriangleMesh& mesh, int index);
+    [[nodiscard]] bool a_face_leads_closer(const Touch& touch, double radius) const;
 
     std::vector<Piece> pieces_;
     std::vector<Frame> frames_;
+    std::vector<std::size_t> frame_of_wall_;
     std::vector<OutlineTriangle> outline_;
     std::vector<std::uint32_t> endless_;
 };
