@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/vec.hpp"
-#include "simd/records.hpp"
+#include "simd/tables.hpp"
 
 namespace sandlane::md {
 

@@ -8,10 +8,6 @@ namespace sandlane::scene {
 
 namespace {
 
-Vec unit(Vec v) {
-    return (1 / norm(v)) * v;
-}
-
 // d: from the surface to the point.
 Foot along(Vec d) {
     const double distance = norm(d);
@@ -172,6 +168,11 @@ Bounds box_of(const RimPiece& s) {
 
 TrianglePiece::TrianglePiece(Vec a, Vec b, Vec c) : corner{a, b, c}, normal(unit(cross(b - a, c - a))) {
     for (int k = 0; k < 3; ++k) inward[k] = unit(cross(normal, corner[(k + 1) % 3] - corner[k]));
+}
+
+Vec unit(Vec v) {
+    const double length = norm(v);
+    return {v.x / length, v.y / length, v.z / length};
 }
 
 Vec perpendicular(Vec direction) {

@@ -70,6 +70,8 @@ struct Foot {
 // Not of planes, which have none.
 [[nodiscard]] Bounds bounds_of(const SurfacePiece& piece);
 
+// Of length 1; exact along an axis.
+[[nodiscard]] Vec unit(Vec v);
 // Unit vector across another one, always the same.
 [[nodiscard]] Vec perpendicular(Vec direction);
 

@@ -24,10 +24,6 @@ constexpr double seam = 0.5 * same_contact * same_contact;
 // Edges between faces that lie in one plane, up to this sine, belong to neither: the slack bridges them.
 constexpr double flat = 1e-7;
 
-Vec unit(Vec v) {
-    return (1 / norm(v)) * v;
-}
-
 TriangleMesh placed_mesh(const Wall& wall) {
     TriangleMesh mesh = parse_stl(read_file(wall.file), wall.file);
     for (Vec& p : mesh.points) p = wall.scale * p + wall.centre;

@@ -8,9 +8,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <string>
 #include <vector>
+
+#include <unistd.h>
 
 namespace sandlane::test {
 
@@ -44,10 +49,24 @@ inline std::string stl_binary(const Triangles& triangles, const std::string& hea
     return content;
 }
 
-// A file of that content which lives as long as the tests do.
+// Removes what stl_file has written when the program ends.
+struct WrittenFiles {
+    std::vector<std::string> paths;
+
+    WrittenFiles() = default;
+    WrittenFiles(const WrittenFiles&) = delete;
+    WrittenFiles& operator=(const WrittenFiles&) = delete;
+    ~WrittenFiles() {
+        for (const std::string& path : paths) std::remove(path.c_str());
+    }
+};
+
+// A file of that content; tests run at the same time, each as a program of its own.
 inline std::string stl_file(const std::string& name, const std::string& content) {
-    const std::string path = testing::TempDir() + "sandlane_" + name + ".stl";
+    static WrittenFiles written;
+    std::string path = fmt::format("{}sandlane_{}_{}.stl", testing::TempDir(), getpid(), name);
     write_file_atomically(path, content);
+    written.paths.push_back(path);
     return path;
 }
 
