@@ -183,15 +183,15 @@ TEST(SurfaceForces, AlongTheInnerEdgeOfAMeshedBox) {
     scene::Scene in_mesh = in_box;
     scene::Wall box;
     box.kind = WallKind::box;
-    box.points = {{0, 0, 0}, {1, 1, 1}};
+    box.points = {{0, 0, 0}, {1, 3, 1}};
     in_box.walls = {box};
-    in_mesh.walls = {mesh_wall("box", test::box_triangles({0, 0, 0}, {1, 1, 1}))};
+    in_mesh.walls = {mesh_wall("box", test::box_triangles({0, 0, 0}, {1, 3, 1}))};
     const double a = 0.05 - 1e-4;
     const Sphere ball{{a, 0.5, a}, {}, {0.3, 2, 0.5}, 0.05};
     SurfaceRig first(in_box, {ball}, 1e-4), second(in_mesh, {ball}, 1e-4);
-    expect_same_along(first, second, line({a, 0.1, a}, {a, 0.9, a}, 500));
+    expect_same_along(first, second, line({a, 0.1, a}, {a, 2.9, a}, 1000));
     SurfaceRig third(in_box, {ball}, 1e-4), fourth(in_mesh, {ball}, 1e-4);
-    expect_same_along(third, fourth, line({1 - a, 0.9, a}, {1 - a, 0.1, a}, 500));
+    expect_same_along(third, fourth, line({1 - a, 2.9, a}, {1 - a, 0.1, a}, 1000));
 }
 
 TEST(SurfaceForces, SpringsOutliveTheList) {
