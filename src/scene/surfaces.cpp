@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <tuple>
 #include <utility>
 
@@ -30,16 +29,28 @@ TriangleMesh placed_mesh(const Wall& wall) {
     return mesh;
 }
 
-// The edges of a mesh in the order of their points, with the faces that end there.
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
-std::map<Edge, std::vector<Vec>> edges_of(const TriangleMesh& mesh, const std::vector<TrianglePiece>& faces) {
-    std::map<Edge, std::vector<Vec>> edges;
-    for (std::size_t t = 0; t < faces.size(); ++t)
+// A side of a triangle between two points of its mesh, ordered so that those of one edge follow each other.
+struct Side {
+    std::uint32_t first, second, triangle;
+    Vec inward; // into the triangle
+
+    [[nodiscard]] bool same_edge(const Side& other) const {
+        return first == other.first && second == other.second;
+    }
+};
+
+std::vector<Side> sides_of(const TriangleMesh& mesh, const std::vector<TrianglePiece>& faces) {
+    std::vector<Side> sides;
+    sides.reserve(3 * faces.size());
+    for (std::uint32_t t = 0; t < faces.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
-            edges[std::minmax(a, b)].push_back(faces[t].inward[k]);
+            const auto [a, b] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+            sides.push_back({a, b, t, faces[t].inward[k]});
         }
-    return edges;
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        return std::tie(a.first, a.second, a.triangle) < std::tie(b.first, b.second, b.triangle);
+    });
+    return sides;
 }
 
 bool lies_inside_a_plane(const std::vector<Vec>& surfaces) {
@@ -141,14 +152,18 @@ void Surfaces::add_mesh(const TriangleMesh& mesh, int index) {
     }
     std::vector<std::vector<Vec>> along(mesh.points.size());
     std::vector<bool> sharp(mesh.points.size(), false);
-    for (const auto& [edge, surfaces] : edges_of(mesh, faces)) {
-        const auto [a, b] = edge;
+    const std::vector<Side> sides = sides_of(mesh, faces);
+    for (auto side = sides.begin(), next = side; side != sides.end(); side = next) {
+        std::vector<Vec> surfaces;
+        for (; next != sides.end() && next->same_edge(*side); ++next) surfaces.push_back(next->inward);
+        const std::uint32_t a = side->first, b = side->second;
         const Vec from = mesh.points[a], direction = unit(mesh.points[b] - from);
         along[a].push_back(direction);
         along[b].push_back(-1.0 * direction);
         if (lies_inside_a_plane(surfaces)) continue;
         sharp[a] = sharp[b] = true;
-        pieces_.push_back({EdgePiece{from, direction, norm(mesh.points[b] - from), surfaces}, index});
+        const double length = norm(mesh.points[b] - from);
+        pieces_.push_back({EdgePiece{from, direction, length, std::move(surfaces)}, index});
     }
     for (std::size_t p = 0; p < mesh.points.size(); ++p)
         if (sharp[p]) pieces_.push_back({CornerPiece{mesh.points[p], std::move(along[p])}, index});
