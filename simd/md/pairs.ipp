@@ -4,7 +4,9 @@
 #pragma once
 
 #include "laws/contact.hpp"
+#include "simd/compress.hpp"
 #include "simd/lanes.hpp"
+#include "simd/rows.hpp"
 #include "simd/tables.hpp"
 
 namespace sandlane::simd {
@@ -16,6 +18,16 @@ template <class Arch>
 SANDLANE_INLINE Block<Arch> minimum_image(const Block<Arch>& d, double half, double period) {
     const Block<Arch> low = select(d < Block<Arch>(-half), d + Block<Arch>(period), d);
     return select(low > Block<Arch>(half), low - Block<Arch>(period), low);
+}
+
+// The first fields of combined records become the vector to the nearest image; returns its square.
+template <class Arch, int dimension, bool images = true>
+SANDLANE_INLINE Block<Arch> separate(const PairView& view, Block<Arch> (&field)[record_fields]) {
+    if constexpr (images)
+        for (int d = 0; d < dimension; ++d) field[d] = minimum_image(field[d], view.half[d], view.period[d]);
+    const Block<Arch> square = field[0] * field[0] + field[1] * field[1];
+    if constexpr (dimension == 3) return square + field[2] * field[2];
+    return square;
 }
 
 template <class Arch>
@@ -32,59 +44,102 @@ gather_coefficients(const PairView& view, const std::int32_t* i, const std::int3
             load<Arch>(lanes[4])};
 }
 
-SANDLANE_INLINE void add_row(double* force, std::int32_t particle, double x, double y, double t) {
-    double* f = force + std::ptrdiff_t{particle} * force_fields;
-    f[0] += x;
-    f[1] += y;
-    f[2] += t;
+template <class R> SANDLANE_INLINE Vector<R> vector(const R* component, const R& factor) {
+    return {factor * component[0], factor * component[1], factor * component[2]};
 }
 
+// The relative state of eight pairs from their combined records.
+template <class Arch, int dimension, class Tangential>
+SANDLANE_INLINE laws::ContactState<dimension, Block<Arch>>
+contact_state(const PairView& view, const std::int32_t* i, const std::int32_t* j,
+              const Block<Arch> (&field)[record_fields]) {
+    using R = Block<Arch>;
+    using Fields = Record<dimension>;
+    const R rate(view.inverse_dt), zero(0.0);
+    if constexpr (dimension == 2) {
+        const R spin = Tangential::needs_spin ? rate * field[Fields::spin] : zero;
+        return {field[0],
+                field[1],
+                rate * field[2],
+                rate * field[3],
+                spin,
+                field[Fields::radius],
+                field[Fields::inverse_radius]};
+    } else {
+        R spin[spin_fields] = {zero, zero, zero, zero}, turn[spin_fields] = {zero, zero, zero, zero};
+        if constexpr (Tangential::needs_spin) CombineSpins<Arch>::apply(view.spins, i, j, spin, turn);
+        return {{field[0], field[1], field[2]},
+                vector(field + Fields::velocity, rate),
+                vector(spin, rate),
+                vector(turn, rate),
+                field[Fields::radius],
+                field[Fields::inverse_radius]};
+    }
+}
+
+// Eight force rows of pair_force's results.
+template <class Arch, int fields>
+SANDLANE_INLINE void store_force(const laws::PairForce<Block<Arch>>& f, double* rows) {
+    const Block<Arch> row[4] = {f.x, f.y, f.tangential, Block<Arch>(0.0)};
+    Rows<Arch, 4>::store(row, rows);
+}
+template <class Arch, int fields>
+SANDLANE_INLINE void store_force(const laws::SpatialForce<Block<Arch>>& f, double* rows) {
+    const Block<Arch> zero(0.0);
+    if constexpr (fields == 8) {
+        const Block<Arch> row[8] = {f.force.x,   f.force.y,   f.force.z,   zero,
+                                    f.turning.x, f.turning.y, f.turning.z, zero};
+        Rows<Arch, 8>::store(row, rows);
+    } else {
+        const Block<Arch> row[4] = {f.force.x, f.force.y, f.force.z, zero};
+        Rows<Arch, 4>::store(row, rows);
+    }
+}
+
+template <class Arch, int dimension, int fields>
 SANDLANE_INLINE void add_forces(double* force, const std::int32_t* i, const std::int32_t* j, int count,
                                 const double* rows, Target target) {
+    using Row = ForceRow<Arch, dimension, fields>;
+    const auto of = [&](std::int32_t grain) { return force + std::ptrdiff_t{grain} * fields; };
     switch (target) {
     case Target::both:
         for (int n = 0; n < count; ++n) {
-            const double* r = rows + n * force_fields;
-            add_row(force, i[n], r[0], r[1], r[2]);
-            add_row(force, j[n], -r[0], -r[1], r[2]);
+            Row::add(of(i[n]), rows + n * fields);
+            Row::add_mirrored(of(j[n]), rows + n * fields);
         }
         break;
     case Target::first:
-        for (int n = 0; n < count; ++n) add_row(force, i[n], rows[4 * n], rows[4 * n + 1], rows[4 * n + 2]);
+        for (int n = 0; n < count; ++n) Row::add(of(i[n]), rows + n * fields);
         break;
     case Target::second:
-        for (int n = 0; n < count; ++n) add_row(force, j[n], -rows[4 * n], -rows[4 * n + 1], rows[4 * n + 2]);
+        for (int n = 0; n < count; ++n) Row::add_mirrored(of(j[n]), rows + n * fields);
         break;
     }
 }
 
-template <class Arch, class Normal, class Tangential, bool many_materials>
+template <class Arch, int dimension, class Normal, class Tangential, bool many_materials>
 double pair_forces(const PairView& view, const std::int32_t* i, const std::int32_t* j, std::int32_t count,
                    Target target, double largest_overlap) {
     using R = Block<Arch>;
-    alignas(64) double rows[pair_chunk * force_fields];
+    constexpr int fields = force_stride(dimension, Tangential::needs_spin);
+    alignas(64) double rows[pair_chunk * fields];
     laws::PairCoefficients<R> coefficients;
     if constexpr (!many_materials) coefficients = laws::coefficients_from<R>(view.coefficients);
     R most(largest_overlap);
     for (std::int32_t first = 0; first < count; first += pair_chunk) {
         const int size = count - first < pair_chunk ? count - first : pair_chunk;
         for (int n = 0; n < size; n += width) {
+            const std::int32_t *const a = i + first + n, *const b = j + first + n;
             R field[record_fields];
-            CombinePairs<Arch>::apply(view.records, i + first + n, j + first + n, field);
-            if constexpr (many_materials)
-                coefficients = gather_coefficients<Arch>(view, i + first + n, j + first + n);
-            const laws::PairState<R> state{minimum_image(field[0], view.half_x, view.period_x),
-                                           minimum_image(field[1], view.half_y, view.period_y),
-                                           field[2],
-                                           field[3],
-                                           field[4],
-                                           field[5],
-                                           field[6]};
-            const auto f = laws::pair_force<Normal, Tangential>(state, coefficients);
+            CombinePairs<Arch, dimension>::apply(view.records, a, b, field);
+            (void)separate<Arch, dimension>(view, field);
+            if constexpr (many_materials) coefficients = gather_coefficients<Arch>(view, a, b);
+            const auto f = laws::pair_force<Normal, Tangential>(
+                contact_state<Arch, dimension, Tangential>(view, a, b, field), coefficients);
             most = max(f.overlap, most);
-            StoreRows<Arch>::apply(f.x, f.y, f.tangential, R(0.0), rows + n * force_fields, force_fields);
+            store_force<Arch, fields>(f, rows + n * fields);
         }
-        add_forces(view.force, i + first, j + first, size, rows, target);
+        add_forces<Arch, dimension, fields>(view.force, i + first, j + first, size, rows, target);
     }
     return largest(most);
 }

@@ -1,6 +1,7 @@
 // Normal contact forces (docs/physics.md 3). Formulas only, templates on R = double or a block of lanes.
 // overlap xi [m], rate d xi/dt [m/s] > 0 while approaching; every law returns f_n >= 0 [N], cut at zero
-// (2.16).
+// (2.16). `memory` numbers per contact live as long as it does; they are zero when it begins, and the same
+// seen from both partners.
 #pragma once
 
 #include "core/real.hpp"
@@ -17,11 +18,12 @@ template <class R> struct NormalInput {
 // f_n = k xi + gamma d xi/dt (2.8). elastic = k [N/m], dissipative = gamma [kg/s].
 struct LinearDashpot {
     static constexpr bool needs_radius = false;
-    template <class R> static SANDLANE_INLINE R force(const NormalInput<R>& c) {
+    static constexpr int memory = 0;
+    template <class R> static SANDLANE_INLINE R force(const NormalInput<R>& c, R*) {
         return max(c.elastic * c.overlap + c.dissipative * c.rate, R(0.0));
     }
     // Elastic energy k xi^2/2 [J].
-    template <class R> static SANDLANE_INLINE R energy(const NormalInput<R>& c) {
+    template <class R> static SANDLANE_INLINE R energy(const NormalInput<R>& c, const R*) {
         return R(0.5) * c.elastic * c.overlap * c.overlap;
     }
 };
@@ -30,12 +32,13 @@ struct LinearDashpot {
 // elastic = (4/3)/[(1-nu_i^2)/Y_i + (1-nu_j^2)/Y_j] [Pa], dissipative = A [s].
 struct Viscoelastic {
     static constexpr bool needs_radius = true;
-    template <class R> static SANDLANE_INLINE R force(const NormalInput<R>& c) {
+    static constexpr int memory = 0;
+    template <class R> static SANDLANE_INLINE R force(const NormalInput<R>& c, R*) {
         const R root = sqrt(c.overlap / c.inverse_reduced_radius);
         return max(c.elastic * root * (c.overlap + c.dissipative * c.rate), R(0.0));
     }
     // Elastic energy (2/5) K xi^{5/2} [J].
-    template <class R> static SANDLANE_INLINE R energy(const NormalInput<R>& c) {
+    template <class R> static SANDLANE_INLINE R energy(const NormalInput<R>& c, const R*) {
         const R root = sqrt(c.overlap / c.inverse_reduced_radius);
         return R(0.4) * c.elastic * root * c.overlap * c.overlap;
     }

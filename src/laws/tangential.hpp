@@ -23,12 +23,9 @@ template <class R> struct SpatialInput {
     R elapsed;
 };
 
-// What the memory of a contact holds before its first evaluation, where a law must know that it is the first.
-inline constexpr double no_contact = 1e300;
-
 // A law returns f_t on grain i along t, or as a vector [N]. `memory` numbers per contact (`memory_in_space`
 // in 3D) live as long as the contact does; both partners see the same numbers in 2D and opposite ones in 3D.
-// Laws without memory do not look at it.
+// At its first evaluation they are zero, and so is the time elapsed. Laws without memory do not look at them.
 struct Frictionless {
     static constexpr bool needs_spin = false, needs_twist = false;
     static constexpr int memory = 0, memory_in_space = 0;
@@ -65,8 +62,7 @@ struct CundallStrack {
     static constexpr int memory = 1, memory_in_space = 3;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R* zeta) {
         const R zero(0.0);
-        const auto first = zeta[0] > R(0.5 * no_contact);
-        const R spring = select(first, zero, zeta[0] + c.elapsed * c.rate);
+        const R spring = zeta[0] + c.elapsed * c.rate;
         const R damped = c.damping * c.rate;
         const R trial = -(c.stiffness * spring) - damped;
         const R limit = c.friction * c.normal_force;
@@ -79,9 +75,7 @@ struct CundallStrack {
     template <class R> static SANDLANE_INLINE Vector<R> force(const SpatialInput<R>& c, R* zeta) {
         const R zero(0.0), one(1.0);
         const Vector<R> none{zero, zero, zero};
-        const auto first = zeta[0] > R(0.5 * no_contact);
-        const Vector<R> spring =
-            select(first, none, carried(c, {zeta[0], zeta[1], zeta[2]}) + c.elapsed * c.velocity);
+        const Vector<R> spring = carried(c, {zeta[0], zeta[1], zeta[2]}) + c.elapsed * c.velocity;
         const Vector<R> damped = c.damping * c.velocity;
         const Vector<R> trial = -c.stiffness * spring - damped;
         const R limit = c.friction * c.normal_force;

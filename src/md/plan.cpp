@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 namespace sandlane::md {
 
@@ -66,9 +67,40 @@ template <class Body> auto with_normal_law(const Scene& scene, const Body& body)
     return body(LawTraits<laws::Viscoelastic>{});
 }
 
-double area(const Scene& scene) {
+// Area or volume of a grain and of the domain.
+double content(const Scene& scene, double radius) {
+    const double area = std::numbers::pi * radius * radius;
+    return scene.domain.dimension == 3 ? 4.0 / 3.0 * area * radius : area;
+}
+double content(const Scene& scene) {
     const Vec size = scene.domain.upper - scene.domain.lower;
-    return size.x * size.y;
+    return size.x * size.y * (scene.domain.dimension == 3 ? size.z : 1.0);
+}
+
+// Calls body<Normal, Tangential>() with the laws at these positions of laws.def.
+template <class Normal, class Body> auto with_tangential_law(int tangential, const Body& body) {
+    int position = 0;
+#define TANGENTIAL(type, choice, name)                                                                       \
+    if (position++ == tangential) return body(std::type_identity<Normal>{}, std::type_identity<laws::type>{});
+#include "laws/laws.def"
+    return body(std::type_identity<Normal>{}, std::type_identity<laws::Frictionless>{});
+}
+template <class Body> auto with_laws(const Plan& plan, const Body& body) {
+    int position = 0;
+#define NORMAL(type, choice, name, key)                                                                      \
+    if (position++ == plan.normal) return with_tangential_law<laws::type>(plan.tangential, body);
+#include "laws/laws.def"
+    return with_tangential_law<laws::LinearDashpot>(plan.tangential, body);
+}
+
+// What contacts of the plan's laws remember.
+void set_memory(Plan& plan) {
+    with_laws(plan, [&]<class Normal, class Tangential>(std::type_identity<Normal>,
+                                                        std::type_identity<Tangential>) {
+        const bool space = plan.dimension == 3;
+        plan.odd_memory = space ? laws::tangential_memory<Tangential, 3> : 0;
+        plan.memory = space ? laws::memory_of<Normal, Tangential, 3> : laws::memory_of<Normal, Tangential, 2>;
+    });
 }
 
 } // namespace
@@ -90,6 +122,7 @@ std::vector<double> pair_table(const Scene& scene) {
                 c[2] = std::min(p.tangential_damping, q.tangential_damping);
                 c[3] = std::min(p.friction, q.friction);
                 c[4] = std::min(p.tangential_stiffness, q.tangential_stiffness);
+                if (scene.md.tangential == scene::TangentialLaw::none) c[2] = c[3] = c[4] = 0;
                 for (const scene::MaterialPair& pair : scene.pairs) {
                     const bool here = (pair.first == p.name && pair.second == q.name) ||
                                       (pair.first == q.name && pair.second == p.name);
@@ -117,8 +150,8 @@ Needs analyse(const Scene& scene, const std::vector<scene::GrainState>& grains) 
         needs.mass_min = std::min(needs.mass_min, g.mass);
         needs.mass_max = std::max(needs.mass_max, g.mass);
         if (g.material != grains.front().material) needs.many_materials = true;
-        needs.spinning = needs.spinning || g.omega != 0;
-        covered += std::numbers::pi * g.radius * g.radius;
+        needs.spinning = needs.spinning || g.omega != 0 || norm(g.angular_velocity) > 0;
+        covered += content(scene, g.radius);
     }
     if (grains.empty()) needs.radius_min = needs.radius_max = needs.mass_min = needs.mass_max = 0;
     needs.many_radii = needs.radius_min != needs.radius_max;
@@ -130,7 +163,7 @@ Needs analyse(const Scene& scene, const std::vector<scene::GrainState>& grains) 
     needs.walls = !scene.walls.empty();
     for (const scene::Wall& w : scene.walls) needs.moving_walls = needs.moving_walls || !w.motion.empty();
     needs.gravity = norm(scene.domain.gravity) > 0;
-    needs.packing_fraction = covered / area(scene);
+    needs.packing_fraction = covered / content(scene);
     return needs;
 }
 
@@ -210,7 +243,11 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     const NeighbourMethod wanted = scene.md.neighbours;
     const double ratio = needs.radius_min > 0 ? needs.radius_max / needs.radius_min : 1;
     const bool asks = wanted == NeighbourMethod::lattice || wanted == NeighbourMethod::lattice_half;
-    const bool fits = needs.radius_max > 0 && fit_lattice(scene, needs, plan);
+    if (asks && plan.dimension == 3)
+        fail(Exit::invalid_input,
+             "md.neighbours = \"lattice\": the lattice is of the plane, the domain has three dimensions; use "
+             "\"auto\", \"verlet\" or \"link-cells\"");
+    const bool fits = plan.dimension == 2 && needs.radius_max > 0 && fit_lattice(scene, needs, plan);
     if (asks && needs.radius_max > 0 && plan.columns == 0)
         fail(Exit::invalid_input,
              "md.neighbours = \"lattice\": the domain of {:.4g} x {:.4g} m would have more than {:.3g} "
@@ -231,8 +268,7 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
         if (wanted != NeighbourMethod::automatic && wanted != NeighbourMethod::verlet)
             fail(Exit::invalid_input,
                  "md.neighbours = \"{}\": the contacts of md.tangential = \"{}\" remember, which only lists "
-                 "of "
-                 "pairs can hold; use \"auto\" or \"verlet\"",
+                 "of pairs can hold; use \"auto\" or \"verlet\"",
                  scene::neighbour_choices()[static_cast<std::size_t>(wanted)],
                  scene::tangential_choices()[static_cast<std::size_t>(scene.md.tangential)]);
         plan.neighbours = NeighbourMethod::verlet;
@@ -263,14 +299,16 @@ void note_skipped(const Scene& scene, const Needs& needs, Plan& plan) {
     const auto skip = [&](bool unused, const char* what) {
         if (unused) plan.skipped.emplace_back(what);
     };
-    skip(!plan.spin, "rotation: no angle, spin or torque columns and kernels (no friction couples to spin)");
+    skip(!plan.rotation,
+         "rotation: no angle, spin or torque columns and kernels (no friction couples to spin)");
     skip(!plan.many_radii, "radii: one radius, the distance stage compares with a constant");
     skip(!plan.many_materials, "materials: one material, no gather of coefficients");
     skip(!plan.walls, "walls: none");
     skip(plan.walls && !needs.moving_walls, "wall motion: all walls are fixed");
     skip(!needs.gravity, "gravity: none");
-    skip(!scene.domain.periodic[0] && !scene.domain.periodic[1], "periodic images: the domain is open");
-    skip(true, "third dimension");
+    const std::array<bool, 3>& periodic = scene.domain.periodic;
+    skip(!periodic[0] && !periodic[1] && !periodic[2], "periodic images: the domain is open");
+    skip(plan.dimension == 2, "third dimension");
 }
 
 void check_time_step(const Scene& scene, const Derived& derived, double dt) {
@@ -298,13 +336,17 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
         threads_reason =
             fmt::format("of {} allowed: {} grains per thread at least", threads.count, grains_per_thread);
     }
+    plan.dimension = static_cast<int>(scene.domain.dimension);
     plan.lower = scene.domain.lower;
     plan.upper = scene.domain.upper;
     plan.order = order_of(scene.md.integrator);
     plan.normal = static_cast<int>(scene.md.normal);
-    plan.tangential = needs.friction ? static_cast<int>(scene.md.tangential) : 0;
-    plan.spin = needs.friction || needs.spinning || scene.domain.gravity.z != 0;
-    plan.memory = needs.memory ? laws::CundallStrack::memory : 0;
+    plan.rotation = needs.friction || needs.spinning || (plan.dimension == 2 && scene.domain.gravity.z != 0);
+    // Free spins in space: the law of fewest operations whose kernels have room for torques, which are zero.
+    const scene::TangentialLaw idle =
+        plan.dimension == 3 && plan.rotation ? scene::TangentialLaw::haff_werner : scene::TangentialLaw::none;
+    plan.tangential = static_cast<int>(needs.friction ? scene.md.tangential : idle);
+    set_memory(plan);
     plan.many_materials = needs.many_materials;
     plan.many_radii = needs.many_radii;
     plan.walls = needs.walls;

@@ -21,7 +21,7 @@ struct Needs {
     bool many_radii = false, many_materials = false, friction = false;
     bool memory = false; // contacts remember
     bool walls = false, moving_walls = false, gravity = false, spinning = false;
-    double packing_fraction = 0; // grain area over domain area
+    double packing_fraction = 0; // grain area or volume over that of the domain
 };
 
 // Physics derived from the scene (docs/physics.md 3).
@@ -37,9 +37,10 @@ struct Plan {
     simd::Isa isa = simd::Isa::scalar;
     int threads = 1;
     scene::NeighbourMethod neighbours = scene::NeighbourMethod::link_cells; // never automatic
-    int order = 5;
-    int memory = 0; // numbers that a contact remembers
-    bool spin = false, many_materials = false, many_radii = false, walls = false;
+    int dimension = 2, order = 5;
+    // Numbers that a contact remembers, and how many of them change sign when its partners are exchanged.
+    int memory = 0, odd_memory = 0;
+    bool rotation = false, many_materials = false, many_radii = false, walls = false;
     int normal = 0, tangential = 0; // positions in laws.def
     double inertia_factor = 0.5;    // J = c m R^2
     double dt = 0;

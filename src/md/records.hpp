@@ -13,8 +13,7 @@ struct RecordedGrain {
     double radius = 0, inverse_radius = 0;
 };
 
-// spin: the record of its spin, 3D with rotation, else null. inverse_dt: what makes m/s of the velocities of
-// a record.
+// spin: the record of its spin, 3D with rotation, else null.
 template <int dimension>
 [[nodiscard]] RecordedGrain recorded_grain(const double* record, const double* spin, double inverse_dt) {
     using Field = simd::Record<dimension>;

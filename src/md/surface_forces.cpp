@@ -96,7 +96,7 @@ void add_to(double* accumulator, const laws::SpatialForce<double>& f, bool spin)
 template <class Normal, class Tangential>
 laws::SpatialForce<double> force_of(const RecordedGrain& g, const WallContact& c, const double* coefficients,
                                     double* remembered, std::ptrdiff_t stride, double dt) {
-    constexpr int memory = laws::memory_of<Tangential, 3>;
+    constexpr int memory = laws::memory_of<Normal, Tangential, 3>;
     double held[memory + 1];
     for (int m = 0; m < memory; ++m) held[m] = remembered[m * stride];
     const auto f = laws::pair_force<Normal, Tangential, double>(
@@ -108,7 +108,7 @@ laws::SpatialForce<double> force_of(const RecordedGrain& g, const WallContact& c
 template <class Normal, class Tangential>
 WallResult surface_forces(const Walls& walls, const WallInput& input, const NearWall* begin,
                           const NearWall* end) {
-    constexpr bool has_memory = laws::memory_of < Tangential, 3 >> 0;
+    constexpr bool has_memory = (laws::memory_of<Normal, Tangential, 3>) != 0;
     WallResult result;
     SurfaceContacts contacts;
     for (const NearWall *first = begin, *last = begin; first != end; first = last) {

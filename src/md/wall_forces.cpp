@@ -20,7 +20,7 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
             recorded_grain<2>(input.records + i * simd::record_fields, nullptr, input.inverse_dt);
         const WallContact c = walls.contact(n->element, g.position);
         const double reach = g.radius + c.radius;
-        constexpr int memory = laws::memory_of<Tangential>;
+        constexpr int memory = laws::memory_of<Normal, Tangential, 2>;
         double* const remembered = memory > 0 ? input.memory + (n - input.near) : nullptr;
         if (!c.valid || c.distance >= reach) {
             for (int m = 0; m < memory; ++m) remembered[m * input.stride] = laws::no_contact;
@@ -38,7 +38,7 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
         const auto f = laws::pair_force<Normal, Tangential, double>(pair, laws::coefficients_from<double>(k),
                                                                     held, input.dt);
         for (int m = 0; m < memory; ++m) remembered[m * input.stride] = held[m];
-        double* force = input.force + (i - input.first) * simd::force_fields;
+        double* force = input.force + (i - input.first) * 4;
         force[0] += f.x;
         force[1] += f.y;
         force[2] += f.tangential;

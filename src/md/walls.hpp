@@ -80,7 +80,7 @@ struct WallInput {
     const NearWall* near = nullptr;
     double* memory = nullptr;
     std::ptrdiff_t stride = 0;
-    double dt = 0, inverse_dt = 1; // velocities of records times the second are m/s
+    double dt = 0, inverse_dt = 0;
     const double* spins = nullptr; // 3D: records of spins, null without
     int force_stride = simd::force_stride(2, false);
 };

@@ -111,11 +111,14 @@ TEST(Restitution, ViscoelasticFitWithinItsStatedError) { // 2.3 against table 9.
 // load.
 TEST(CundallStrack, SpringAndClamp) {
     const double k = 100, mu = 0.5, dt = 0.01;
-    double zeta[1] = {laws::no_contact};
+    double zeta[1] = {0.0};
+    double elapsed = 0;
     const auto force = [&](double normal, double rate) {
-        return laws::CundallStrack::force(laws::TangentialInput<double>{normal, rate, 0, mu, k, dt}, zeta);
+        return laws::CundallStrack::force(laws::TangentialInput<double>{normal, rate, 0, mu, k, elapsed},
+                                          zeta);
     };
     EXPECT_EQ(force(1, 0.3), 0.0); // first evaluation: no increment
+    elapsed = dt;
     EXPECT_EQ(zeta[0], 0.0);
     EXPECT_NEAR(force(1, 0.3), -k * 0.003, 1e-14); // sticks
     for (int n = 0; n < 10; ++n) (void)force(1, 0.3);

@@ -5,8 +5,11 @@
 #include "core/parallel.hpp"
 #include "md/plan.hpp"
 #include "md/walls.hpp"
+#include "support/stl_file.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace sandlane::test {
@@ -38,14 +41,30 @@ inline scene::Wall plane_wall(Vec point, Vec normal) {
     return w;
 }
 
-inline md::State columns_of(const std::vector<Sphere>& spheres) {
+inline scene::Wall mesh_wall(const std::string& name, const Triangles& triangles) {
+    scene::Wall w;
+    w.kind = scene::WallKind::mesh;
+    w.file = stl_file("md_" + name, stl_text(triangles));
+    return w;
+}
+
+inline scene::Scene springs_and_friction() {
+    scene::Scene s = space();
+    s.md.tangential = scene::TangentialLaw::cundall_strack;
+    s.materials[0].stiffness = 1e5;
+    s.materials[0].friction = 0.5;
+    s.materials[0].tangential_stiffness = 3e4;
+    s.materials[0].tangential_damping = 0.3;
+    return s;
+}
+
+// What walls want to know of a state besides its records.
+inline md::State numbered(std::size_t grains) {
     md::State state;
-    state.radius.resize(spheres.size());
-    state.id.resize(spheres.size());
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        state.radius[i] = spheres[i].radius;
-        state.id[i] = static_cast<std::int64_t>(i);
-    }
+    state.dimension = 3;
+    state.mass.resize(grains);
+    state.id.resize(grains);
+    for (std::size_t i = 0; i < grains; ++i) state.id[i] = static_cast<std::int64_t>(i);
     return state;
 }
 
@@ -54,7 +73,7 @@ public:
     SurfaceRig(const scene::Scene& scene, std::vector<Sphere> grains, double time_step, int thread_count = 1)
         : spheres(std::move(grains)), dt(time_step), threads(thread_count),
           coefficients_(md::pair_table(scene)), materials_(static_cast<int>(scene.materials.size())),
-          gravity_(scene.domain.gravity), state_(columns_of(spheres)) {
+          gravity_(scene.domain.gravity), state_(numbered(spheres.size())) {
         md::Plan plan;
         plan.normal = static_cast<int>(scene.md.normal);
         plan.tangential = static_cast<int>(scene.md.tangential);
@@ -133,8 +152,9 @@ private:
         material_.clear();
         for (const Sphere& s : spheres) {
             const Vec p = s.position, v = s.velocity, w = s.angular_velocity;
-            records_.insert(records_.end(), {p.x, p.y, p.z, v.x, v.y, v.z, s.radius, 1 / s.radius});
-            spins_.insert(spins_.end(), {w.x, w.y, w.z, s.radius});
+            records_.insert(records_.end(),
+                            {p.x, p.y, p.z, v.x * dt, v.y * dt, v.z * dt, s.radius, 1 / s.radius});
+            spins_.insert(spins_.end(), {w.x * dt, w.y * dt, w.z * dt, s.radius});
             material_.push_back(s.material);
         }
     }
@@ -155,7 +175,7 @@ private:
                          forces_.data() + 8 * tile * md::tile_size,
                          tile * md::tile_size};
         in.dt = dt;
-        in.inverse_dt = 1;
+        in.inverse_dt = 1 / dt;
         in.spins = spins_.data();
         in.force_stride = simd::force_stride(3, true);
         return in;
