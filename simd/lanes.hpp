@@ -128,6 +128,10 @@ template <class A> SANDLANE_INLINE unsigned bits(const Mask<A>& m) {
     return r;
 }
 
+template <class A> SANDLANE_INLINE bool any(const Mask<A>& m) {
+    return bits(m) != 0;
+}
+
 // Largest lane; exact, so the order does not matter. The block must hold no NaN.
 template <class A> SANDLANE_INLINE double largest(const Block<A>& b) {
     double lanes[width];

@@ -48,7 +48,7 @@ template <class Arch, int dimension> struct ForceRow<Arch, dimension, 8> {
 };
 #endif
 
-// ---- transposes of eight rows: load<fields>, store<fields> for 4 and 8 fields without gaps
+// ---- transposes of eight rows of a few fields, without gaps or wherever they stand
 
 template <class Arch, int fields> struct Rows {
     static SANDLANE_INLINE void load(const double* rows, Block<Arch> (&field)[fields]) {
@@ -63,6 +63,19 @@ template <class Arch, int fields> struct Rows {
         for (int l = 0; l < width; ++l)
             for (int f = 0; f < fields; ++f) rows[fields * l + f] = lanes[f][l];
     }
+    // The same for rows at[0], at[1], ... of `base`.
+    static SANDLANE_INLINE void gather(const double* base, const std::int32_t* at, Block<Arch> (&field)[fields]) {
+        alignas(64) double rows[fields * width];
+        for (int l = 0; l < width; ++l)
+            for (int f = 0; f < fields; ++f) rows[fields * l + f] = base[std::ptrdiff_t{at[l]} * fields + f];
+        load(rows, field);
+    }
+    static SANDLANE_INLINE void scatter(const Block<Arch> (&field)[fields], double* base, const std::int32_t* at) {
+        alignas(64) double rows[fields * width];
+        store(field, rows);
+        for (int l = 0; l < width; ++l)
+            for (int f = 0; f < fields; ++f) base[std::ptrdiff_t{at[l]} * fields + f] = rows[fields * l + f];
+    }
 };
 
 #if defined(__AVX2__)
@@ -74,13 +87,13 @@ SANDLANE_INLINE void transpose4(__m256d& a, __m256d& b, __m256d& c, __m256d& d) 
     c = _mm256_permute2f128_pd(ab0, cd0, 0x31);
     d = _mm256_permute2f128_pd(ab1, cd1, 0x31);
 }
-template <int fields> struct Rows<xsimd::avx2, fields> {
-    static SANDLANE_INLINE void load(const double* rows, Block<xsimd::avx2> (&field)[fields]) {
+template <int fields> struct RowsOfFours {
+    using Lanes = Block<xsimd::avx2>;
+    template <class Row> static SANDLANE_INLINE void load_rows(const Row& row, Lanes (&field)[fields]) {
         for (int part = 0; part < 2; ++part)
             for (int f = 0; f < fields; f += 4) {
-                const double* from = rows + 4 * part * fields + f;
-                __m256d a = _mm256_loadu_pd(from), b = _mm256_loadu_pd(from + fields);
-                __m256d c = _mm256_loadu_pd(from + 2 * fields), d = _mm256_loadu_pd(from + 3 * fields);
+                __m256d a = _mm256_loadu_pd(row(4 * part) + f), b = _mm256_loadu_pd(row(4 * part + 1) + f);
+                __m256d c = _mm256_loadu_pd(row(4 * part + 2) + f), d = _mm256_loadu_pd(row(4 * part + 3) + f);
                 transpose4(a, b, c, d);
                 field[f].p[part] = a;
                 field[f + 1].p[part] = b;
@@ -88,20 +101,33 @@ template <int fields> struct Rows<xsimd::avx2, fields> {
                 field[f + 3].p[part] = d;
             }
     }
-    static SANDLANE_INLINE void store(const Block<xsimd::avx2> (&field)[fields], double* rows) {
+    template <class Row> static SANDLANE_INLINE void store_rows(const Lanes (&field)[fields], const Row& row) {
         for (int part = 0; part < 2; ++part)
             for (int f = 0; f < fields; f += 4) {
                 __m256d a = field[f].p[part], b = field[f + 1].p[part];
                 __m256d c = field[f + 2].p[part], d = field[f + 3].p[part];
                 transpose4(a, b, c, d);
-                double* to = rows + 4 * part * fields + f;
-                _mm256_storeu_pd(to, a);
-                _mm256_storeu_pd(to + fields, b);
-                _mm256_storeu_pd(to + 2 * fields, c);
-                _mm256_storeu_pd(to + 3 * fields, d);
+                _mm256_storeu_pd(row(4 * part) + f, a);
+                _mm256_storeu_pd(row(4 * part + 1) + f, b);
+                _mm256_storeu_pd(row(4 * part + 2) + f, c);
+                _mm256_storeu_pd(row(4 * part + 3) + f, d);
             }
     }
+    static SANDLANE_INLINE void load(const double* rows, Lanes (&field)[fields]) {
+        load_rows([&](int l) { return rows + fields * l; }, field);
+    }
+    static SANDLANE_INLINE void store(const Lanes (&field)[fields], double* rows) {
+        store_rows(field, [&](int l) { return rows + fields * l; });
+    }
+    static SANDLANE_INLINE void gather(const double* base, const std::int32_t* at, Lanes (&field)[fields]) {
+        load_rows([&](int l) { return base + std::ptrdiff_t{at[l]} * fields; }, field);
+    }
+    static SANDLANE_INLINE void scatter(const Lanes (&field)[fields], double* base, const std::int32_t* at) {
+        store_rows(field, [&](int l) { return base + std::ptrdiff_t{at[l]} * fields; });
+    }
 };
+template <> struct Rows<xsimd::avx2, 4> : RowsOfFours<4> {};
+template <> struct Rows<xsimd::avx2, 8> : RowsOfFours<8> {};
 #endif
 
 #if defined(__AVX512F__)
@@ -140,19 +166,31 @@ template <> struct Rows<xsimd::avx512bw, 8> {
 };
 template <> struct Rows<xsimd::avx512bw, 4> {
     using Lanes = Block<xsimd::avx512bw>;
-    static SANDLANE_INLINE void load(const double* rows, Lanes (&field)[4]) {
-        const __m512d r0 = _mm512_loadu_pd(rows), r1 = _mm512_loadu_pd(rows + 8);
-        const __m512d r2 = _mm512_loadu_pd(rows + 16), r3 = _mm512_loadu_pd(rows + 24);
+    // Rows 0 and 1, 2 and 3, ... side by side.
+    static SANDLANE_INLINE void columns(const __m512d (&r)[4], Lanes (&field)[4]) {
         const __m512i xy = _mm512_setr_epi64(0, 4, 8, 12, 1, 5, 9, 13);
         const __m512i zw = _mm512_setr_epi64(2, 6, 10, 14, 3, 7, 11, 15);
-        const __m512d a = _mm512_permutex2var_pd(r0, xy, r1), b = _mm512_permutex2var_pd(r2, xy, r3);
-        const __m512d c = _mm512_permutex2var_pd(r0, zw, r1), d = _mm512_permutex2var_pd(r2, zw, r3);
+        const __m512d a = _mm512_permutex2var_pd(r[0], xy, r[1]), b = _mm512_permutex2var_pd(r[2], xy, r[3]);
+        const __m512d c = _mm512_permutex2var_pd(r[0], zw, r[1]), d = _mm512_permutex2var_pd(r[2], zw, r[3]);
         field[0].p[0] = _mm512_shuffle_f64x2(a, b, 0x44);
         field[1].p[0] = _mm512_shuffle_f64x2(a, b, 0xee);
         field[2].p[0] = _mm512_shuffle_f64x2(c, d, 0x44);
         field[3].p[0] = _mm512_shuffle_f64x2(c, d, 0xee);
     }
-    static SANDLANE_INLINE void store(const Lanes (&field)[4], double* rows) {
+    static SANDLANE_INLINE void load(const double* rows, Lanes (&field)[4]) {
+        const __m512d r[4] = {_mm512_loadu_pd(rows), _mm512_loadu_pd(rows + 8), _mm512_loadu_pd(rows + 16),
+                              _mm512_loadu_pd(rows + 24)};
+        columns(r, field);
+    }
+    static SANDLANE_INLINE void gather(const double* base, const std::int32_t* at, Lanes (&field)[4]) {
+        __m512d r[4];
+        for (int n = 0; n < 4; ++n)
+            r[n] = _mm512_insertf64x4(
+                _mm512_castpd256_pd512(_mm256_loadu_pd(base + std::ptrdiff_t{at[2 * n]} * 4)),
+                _mm256_loadu_pd(base + std::ptrdiff_t{at[2 * n + 1]} * 4), 1);
+        columns(r, field);
+    }
+    template <class Row> static SANDLANE_INLINE void store_rows(const Lanes (&field)[4], const Row& row) {
         const __m512d a[2] = {_mm512_unpacklo_pd(field[0].p[0], field[1].p[0]),
                               _mm512_unpackhi_pd(field[0].p[0], field[1].p[0])};
         const __m512d b[2] = {_mm512_unpacklo_pd(field[2].p[0], field[3].p[0]),
@@ -162,11 +200,17 @@ template <> struct Rows<xsimd::avx512bw, 4> {
         for (int odd = 0; odd < 2; ++odd) {
             const __m512d first = _mm512_permutex2var_pd(a[odd], low, b[odd]);   // lanes odd, odd + 2
             const __m512d second = _mm512_permutex2var_pd(a[odd], high, b[odd]); // lanes odd + 4, odd + 6
-            _mm256_storeu_pd(rows + 4 * odd, _mm512_castpd512_pd256(first));
-            _mm256_storeu_pd(rows + 4 * (odd + 2), _mm512_extractf64x4_pd(first, 1));
-            _mm256_storeu_pd(rows + 4 * (odd + 4), _mm512_castpd512_pd256(second));
-            _mm256_storeu_pd(rows + 4 * (odd + 6), _mm512_extractf64x4_pd(second, 1));
+            _mm256_storeu_pd(row(odd), _mm512_castpd512_pd256(first));
+            _mm256_storeu_pd(row(odd + 2), _mm512_extractf64x4_pd(first, 1));
+            _mm256_storeu_pd(row(odd + 4), _mm512_castpd512_pd256(second));
+            _mm256_storeu_pd(row(odd + 6), _mm512_extractf64x4_pd(second, 1));
         }
+    }
+    static SANDLANE_INLINE void store(const Lanes (&field)[4], double* rows) {
+        store_rows(field, [&](int l) { return rows + 4 * l; });
+    }
+    static SANDLANE_INLINE void scatter(const Lanes (&field)[4], double* base, const std::int32_t* at) {
+        store_rows(field, [&](int l) { return base + std::ptrdiff_t{at[l]} * 4; });
     }
 };
 #endif

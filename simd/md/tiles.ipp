@@ -11,11 +11,10 @@ inline constexpr int tile_chunk = 128; // pairs
 inline constexpr int look_ahead = 64;  // pairs: distance of the prefetch of partners' records
 
 // The contacts of one chunk, packed; room for the full store of the last eight.
-template <int force_fields, int memory_doubles> struct Contacts {
+template <int force_fields> struct Contacts {
     static constexpr int room = tile_chunk + width;
     alignas(64) double field[record_fields][room]; // combined records
     alignas(64) double rows[room * force_fields];
-    alignas(64) double memory[room * memory_doubles + 1];
     std::int32_t i[room], j[room], place[room]; // place in the chunk
     int count;
 };
@@ -37,6 +36,11 @@ SANDLANE_INLINE void begin_contacts(const TileList& list, std::int32_t pair, uns
     touched = static_cast<std::uint8_t>(touching);
 }
 
+template <int dimension, bool spin> SANDLANE_INLINE void prefetch_grain(const PairView& view, std::int32_t j) {
+    __builtin_prefetch(view.records + std::ptrdiff_t{j} * record_fields);
+    if (dimension == 3 && spin) __builtin_prefetch(view.spins + std::ptrdiff_t{j} * spin_fields);
+}
+
 template <class Arch, int dimension, bool images, class Normal, class Tangential, class Packed>
 SANDLANE_INLINE void pack_contacts(const PairView& view, const TileList& list, std::int32_t first, int size,
                                    Packed& c) {
@@ -48,7 +52,7 @@ SANDLANE_INLINE void pack_contacts(const PairView& view, const TileList& list, s
     for (int n = 0; n < size; n += width) {
         if (j + n + look_ahead + width <= end)
             for (int l = 0; l < width; ++l)
-                __builtin_prefetch(view.records + std::ptrdiff_t{j[n + look_ahead + l]} * record_fields);
+                prefetch_grain<dimension, Tangential::needs_spin>(view, j[n + look_ahead + l]);
         R field[record_fields];
         CombinePairs<Arch, dimension>::apply(view.records, i + n, j + n, field);
         const R square = separate<Arch, dimension, images>(view, field),
@@ -82,36 +86,34 @@ SANDLANE_INLINE void pad_contacts(Packed& c) {
     }
 }
 
-// Memory of eight contacts, in rows of `doubles`, as blocks and back.
-template <class Arch, int memory, int doubles>
-SANDLANE_INLINE void load_memory(const double* rows, Block<Arch> (&held)[memory + 1]) {
+// Memory of eight contacts, in rows at `place`, as blocks and back. Rows of one or two numbers go by scalars.
+template <class Arch, int memory>
+SANDLANE_INLINE void load_memory(const double* rows, const std::int32_t* place, Block<Arch> (&held)[memory + 1]) {
+    constexpr int doubles = memory_row(memory);
     if constexpr (doubles == 4) {
         Block<Arch> row[4];
-        Rows<Arch, 4>::load(rows, row);
+        Rows<Arch, 4>::gather(rows, place, row);
         for (int m = 0; m < memory; ++m) held[m] = row[m];
     } else {
         double lanes[doubles + 1][width];
         for (int l = 0; l < width; ++l)
-            for (int m = 0; m < memory; ++m) lanes[m][l] = rows[doubles * l + m];
+            for (int m = 0; m < memory; ++m) lanes[m][l] = rows[std::ptrdiff_t{place[l]} * doubles + m];
         for (int m = 0; m < memory; ++m) held[m] = load<Arch>(lanes[m]);
     }
 }
-template <class Arch, int memory, int doubles>
-SANDLANE_INLINE void store_memory(const Block<Arch> (&held)[memory + 1], double* rows) {
+template <class Arch, int memory>
+SANDLANE_INLINE void store_memory(const Block<Arch> (&held)[memory + 1], double* rows, const std::int32_t* place) {
+    constexpr int doubles = memory_row(memory);
     if constexpr (doubles == 4) {
         Block<Arch> row[4];
         for (int m = 0; m < 4; ++m) row[m] = m < memory ? held[m] : Block<Arch>(0.0);
-        Rows<Arch, 4>::store(row, rows);
+        Rows<Arch, 4>::scatter(row, rows, place);
     } else {
         double lanes[doubles + 1][width];
         for (int m = 0; m < memory; ++m) store(lanes[m], held[m]);
         for (int l = 0; l < width; ++l)
-            for (int m = 0; m < memory; ++m) rows[doubles * l + m] = lanes[m][l];
+            for (int m = 0; m < memory; ++m) rows[std::ptrdiff_t{place[l]} * doubles + m] = lanes[m][l];
     }
-}
-
-template <int doubles> SANDLANE_INLINE void copy_row(const double* from, double* to) {
-    for (int m = 0; m < doubles; ++m) to[m] = from[m];
 }
 
 template <class Arch, int dimension, class Normal, class Tangential, bool many_materials>
@@ -120,7 +122,7 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
     constexpr int memory = laws::memory_of<Normal, Tangential, dimension>, doubles = memory_row(memory);
     constexpr int fields = force_stride(dimension, Tangential::needs_spin);
     using Row = ForceRow<Arch, dimension, fields>;
-    Contacts<fields, doubles> c;
+    Contacts<fields> c;
     laws::PairCoefficients<R> coefficients;
     if constexpr (!many_materials) coefficients = laws::coefficients_from<R>(view.coefficients);
     const R elapsed(view.dt);
@@ -134,18 +136,16 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
         else
             pack_contacts<Arch, dimension, false, Normal, Tangential>(view, list, first, size, c);
         pad_contacts<dimension, Normal, Tangential>(c);
-        for (int n = 0; memory > 0 && n < (c.count + width - 1) / width * width; ++n)
-            copy_row<doubles>(remembered + std::ptrdiff_t{c.place[n]} * doubles, c.memory + n * doubles);
         for (int n = 0; n < c.count; n += width) {
             if constexpr (many_materials) coefficients = gather_coefficients<Arch>(view, c.i + n, c.j + n);
             R field[record_fields], held[memory + 1];
             for (int f = 0; f < record_fields; ++f)
                 field[f] = reads<dimension, Normal, Tangential>(f) ? load<Arch>(c.field[f] + n) : R(1.0);
-            load_memory<Arch, memory, doubles>(c.memory + n * doubles, held);
+            load_memory<Arch, memory>(remembered, c.place + n, held);
             const auto f = laws::pair_force<Normal, Tangential>(
                 contact_state<Arch, dimension, Tangential>(view, c.i + n, c.j + n, field), coefficients, held,
                 elapsed);
-            store_memory<Arch, memory, doubles>(held, c.memory + n * doubles);
+            store_memory<Arch, memory>(held, remembered, c.place + n);
             most = max(f.overlap, most);
             store_force<Arch, fields>(f, c.rows + n * fields);
         }
@@ -155,7 +155,6 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
             const auto partner = static_cast<std::uint32_t>(c.j[n] - list.begin);
             const std::ptrdiff_t target = partner < size_of_tile ? std::ptrdiff_t{partner} : tile_grains;
             Row::add_mirrored(force + target * fields, row);
-            copy_row<doubles>(c.memory + n * doubles, remembered + std::ptrdiff_t{c.place[n]} * doubles);
         }
     }
     return largest(most);

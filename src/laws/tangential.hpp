@@ -81,9 +81,12 @@ struct CundallStrack {
         const R limit = c.friction * c.normal_force;
         const R square = dot(trial, trial);
         const auto slides = square > limit * limit;
-        const Vector<R> force = select(slides, limit / sqrt(square), one) * trial;
-        const Vector<R> pulled = -(one / c.stiffness) * (force + damped);
-        const Vector<R> held = select(c.normal_force > zero, select(slides, pulled, spring), none);
+        Vector<R> force = trial, held = spring;
+        if (any(slides)) {
+            force = select(slides, limit / sqrt(square), one) * trial;
+            held = select(slides, -(one / c.stiffness) * (force + damped), spring);
+        }
+        held = select(c.normal_force > zero, held, none);
         zeta[0] = held.x;
         zeta[1] = held.y;
         zeta[2] = held.z;
