@@ -129,10 +129,10 @@ private:
     }
 
     [[nodiscard]] Found with_wall(std::size_t i, std::size_t e, const WallContact& c) const {
-        const WallElement& element = walls_.elements()[e];
+        const WallElement& element = walls_.element(e);
         const Vec n = c.direction, wall_spin{0, 0, c.spin};
         const Relative s{vector(c.distance * n),      vector(c.velocity - rate_ * state_.shift(i)),
-                         vector(spin(i) + wall_spin), vector(rate_ * state_.turn(i)),
+                         vector(spin(i) + wall_spin), vector(rate_ * state_.turn(i) + c.angular_velocity),
                          state_.radius(i) + c.radius, state_.inverse_radius(i) + c.inverse_radius};
         const ContactForce f = kernel_(s, coefficients_of(state_.material[i], element.material),
                                        memories_.walls.find_wall(state_.id[i], static_cast<std::int64_t>(e)));

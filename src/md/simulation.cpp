@@ -300,7 +300,9 @@ WallInput Simulation::wall_input(double* force, std::size_t first) const {
             nullptr,
             0,
             plan_.dt,
-            1.0 / plan_.dt};
+            1.0 / plan_.dt,
+            state_.spin.empty() ? nullptr : state_.spin.data(),
+            static_cast<int>(state_.force_stride())};
 }
 
 void Simulation::check_walls() const {
