@@ -1,4 +1,4 @@
-// Grains in square cells: neighbour search for start states. Plain and serial; the engines have their own.
+// Grains in square or cubic cells: neighbour search for start states. Plain and serial; the engines have their own.
 #pragma once
 
 #include "core/vec.hpp"
@@ -13,13 +13,14 @@
 
 namespace sandlane::scene {
 
-// The domain as a metric space: minimum image across periodic sides.
+// The domain as a metric space: minimum image across periodic sides. In a plane z is 0.
 struct Box {
+    std::int64_t dimension;
     Vec lower, upper;
-    std::array<bool, 2> periodic{false, false};
+    std::array<bool, 3> periodic;
 
     explicit Box(const Domain& domain)
-        : lower(domain.lower), upper(domain.upper), periodic{domain.periodic[0], domain.periodic[1]} {}
+        : dimension(domain.dimension), lower(domain.lower), upper(domain.upper), periodic(domain.periodic) {}
 
     [[nodiscard]] Vec size() const { return upper - lower; }
     // From a to b.
@@ -27,12 +28,14 @@ struct Box {
         Vec d = b - a;
         if (periodic[0]) d.x -= size().x * std::nearbyint(d.x / size().x);
         if (periodic[1]) d.y -= size().y * std::nearbyint(d.y / size().y);
+        if (periodic[2]) d.z -= size().z * std::nearbyint(d.z / size().z);
         return d;
     }
     // Into [lower, upper) along periodic sides.
     [[nodiscard]] Vec wrapped(Vec p) const {
         if (periodic[0]) p.x = wrap(p.x, lower.x, upper.x);
         if (periodic[1]) p.y = wrap(p.y, lower.y, upper.y);
+        if (periodic[2]) p.z = wrap(p.z, lower.z, upper.z);
         return p;
     }
 
@@ -49,30 +52,35 @@ public:
     CellGrid(const Box& box, double reach, std::size_t points) : box_(box) {
         next_.reserve(points);
         // Far more cells than points cost memory and find nothing.
-        const double most = 2 + 2 * std::sqrt(static_cast<double>(points));
+        const double n = static_cast<double>(points);
+        const double most = 2 + 2 * (box.dimension == 3 ? std::cbrt(n) : std::sqrt(n));
         const auto cells = [&](double length) {
             return static_cast<std::int64_t>(std::clamp(std::floor(length / reach), 1.0, most));
         };
         columns_ = cells(box.size().x);
         rows_ = cells(box.size().y);
-        head_.assign(static_cast<std::size_t>(columns_ * rows_), -1);
+        if (box.dimension == 3) layers_ = cells(box.size().z);
+        head_.assign(static_cast<std::size_t>(columns_ * rows_ * layers_), -1);
     }
 
     // Points are numbered in the order of insertion.
     void insert(Vec p) {
-        std::int64_t& head = head_[static_cast<std::size_t>(row(p) * columns_ + column(p))];
+        std::int64_t& head = head_[cell(column(p), row(p), layer(p))];
         next_.push_back(head);
         head = static_cast<std::int64_t>(next_.size()) - 1;
     }
 
-    // Calls body(number) for the points of the cell of p and of the eight around it, each once.
+    // Calls body(number) for the points of the cell of p and of the cells around it, each once.
     template <class Body> void for_near(Vec p, const Body& body) const {
         const auto [left, width] = span(column(p), columns_, box_.periodic[0]);
         const auto [bottom, height] = span(row(p), rows_, box_.periodic[1]);
-        for (std::int64_t r = bottom; r < bottom + height; ++r)
-            for (std::int64_t c = left; c < left + width; ++c)
-                for (std::int64_t n = head_[cell(c, r)]; n >= 0; n = next_[static_cast<std::size_t>(n)])
-                    body(static_cast<std::size_t>(n));
+        const auto [front, depth] = span(layer(p), layers_, box_.periodic[2]);
+        for (std::int64_t l = front; l < front + depth; ++l)
+            for (std::int64_t r = bottom; r < bottom + height; ++r)
+                for (std::int64_t c = left; c < left + width; ++c)
+                    for (std::int64_t n = head_[wrapped_cell(c, r, l)]; n >= 0;
+                         n = next_[static_cast<std::size_t>(n)])
+                        body(static_cast<std::size_t>(n));
     }
 
 private:
@@ -84,8 +92,11 @@ private:
         const std::int64_t first = std::max<std::int64_t>(at - 1, 0);
         return {first, std::min(at + 1, cells - 1) - first + 1};
     }
-    [[nodiscard]] std::size_t cell(std::int64_t c, std::int64_t r) const {
-        return static_cast<std::size_t>((r % rows_) * columns_ + c % columns_);
+    [[nodiscard]] std::size_t cell(std::int64_t c, std::int64_t r, std::int64_t l) const {
+        return static_cast<std::size_t>((l * rows_ + r) * columns_ + c);
+    }
+    [[nodiscard]] std::size_t wrapped_cell(std::int64_t c, std::int64_t r, std::int64_t l) const {
+        return cell(c % columns_, r % rows_, layers_ == 1 ? 0 : l % layers_);
     }
     // Points outside an open box count to its outermost cells, which keeps neighbours together.
     static std::int64_t index(double x, double low, double high, std::int64_t cells) {
@@ -98,9 +109,12 @@ private:
     [[nodiscard]] std::int64_t row(Vec p) const {
         return index(box_.wrapped(p).y, box_.lower.y, box_.upper.y, rows_);
     }
+    [[nodiscard]] std::int64_t layer(Vec p) const {
+        return layers_ == 1 ? 0 : index(box_.wrapped(p).z, box_.lower.z, box_.upper.z, layers_);
+    }
 
     Box box_;
-    std::int64_t columns_ = 1, rows_ = 1;
+    std::int64_t columns_ = 1, rows_ = 1, layers_ = 1;
     std::vector<std::int64_t> head_, next_;
 };
 

@@ -159,11 +159,15 @@ struct Md {
     Body body = Body::sphere;
 };
 
-enum class Axis { x, y };
+enum class Axis { x, y, z };
 enum class AnalysisKind {
 #define ANALYSIS(name, choice) name,
 #include "scene/analyses.def"
 };
+
+// Which grains are the first population of two: those of the lower half along `axis` in the first frame, of
+// the material that comes first in the scene, or the smaller ones.
+enum class Populations { sides, materials, sizes };
 
 // One [[analysis]]; a kind reads only its own keys.
 struct AnalysisSpec {
@@ -172,10 +176,11 @@ struct AnalysisSpec {
     double every = 0; // s; 0: duration/100
     double start = 0; // s: frames before it are left out
     Vec from, to; // flow: ends of the line; else: corners of the region, the domain where they are the same
-    Axis axis = Axis::y;   // profile
+    Axis axis = Axis::y;   // profile; 3D map: viewing direction; mixing: across the sides
     std::int64_t bins = 0; // 0: chosen by the kind
     double range = 0;      // pair-correlation: largest distance, m; 0: half the shorter side
     double threshold = 1;  // force-chains, map: in units of the mean pressure
+    Populations populations = Populations::sides; // mixing
 };
 
 struct Output {
@@ -186,6 +191,8 @@ struct Output {
     std::vector<Trajectory> trajectory{Trajectory::dump};
     Colour colour = Colour::speed;
     std::int64_t picture_width = 800; // pixels
+    // 3D pictures: azimuth about the upward direction and elevation of the viewer, degrees
+    std::array<double, 2> view{25, 20};
     bool movie = true;
     bool report = true;
 };

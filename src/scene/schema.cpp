@@ -335,8 +335,9 @@ const Table<AnalysisSpec>& analysis_table() {
     };
     static const Table<AnalysisSpec> table =
         Table<AnalysisSpec>(
-            "What a run measures of its grains; each writes `NAME.csv`. flow, force-chains and stress add a "
-            "row "
+            "What a run measures of its grains; each writes `NAME.csv`. flow, force-chains, mixing and "
+            "stress "
+            "add a row "
             "per frame; profile, pair-correlation and map average over frames: their tables are written with "
             "every checkpoint and at the end, maps as pictures `NAME-*.png` too. A pressure is a force per "
             "length in the plane, N/m.")
@@ -344,7 +345,9 @@ const Table<AnalysisSpec>& analysis_table() {
             .required()
             .choice("kind", &AnalysisSpec::kind, kinds,
                     "strips across an axis; g(r); force chains; bins in the plane; what crosses a line; "
-                    "stress tensor, contact number and packing fraction of a region")
+                    "stress tensor, contact number and packing fraction of a region; how well two "
+                    "populations are "
+                    "mixed")
             .required()
             .number("every", &AnalysisSpec::every, Unit::time, not_negative(),
                     "time between frames; 0: duration/100")
@@ -355,14 +358,20 @@ const Table<AnalysisSpec>& analysis_table() {
             .vector("to", &AnalysisSpec::to, Unit::length,
                     "flow: where the line ends, from its left to its right counts positive; else: the other "
                     "corner, the same as from: the whole domain")
-            .choice("axis", &AnalysisSpec::axis, {"x", "y"}, "profile: axis across the strips")
-            .integer("bins", &AnalysisSpec::bins, between(0, 4096),
-                     "profile: strips (0: 50); pair-correlation: distances (0: 100); map: columns (0: one "
-                     "mean diameter wide)")
+            .choice("axis", &AnalysisSpec::axis, {"x", "y"},
+                    "profile: axis across the strips; mixing: axis across the sides")
+            .integer(
+                "bins", &AnalysisSpec::bins, between(0, 4096),
+                "profile: strips (0: 50); pair-correlation: distances (0: 100); map: columns (0: one "
+                "mean diameter wide); mixing: cells along the longest side (0: three mean diameters wide)")
             .number("range", &AnalysisSpec::range, Unit::length, not_negative(),
                     "pair-correlation: largest distance; 0: half the shorter side")
             .number("threshold", &AnalysisSpec::threshold, Unit::none, not_negative(),
-                    "force-chains, map: pressure that counts as load, in units of the mean over all grains");
+                    "force-chains, map: pressure that counts as load, in units of the mean over all grains")
+            .choice(
+                "populations", &AnalysisSpec::populations, {"sides", "materials", "sizes"},
+                "mixing: the lower half along axis in the first frame, the first material, or the smaller "
+                "grains, against the others");
     return table;
 }
 
