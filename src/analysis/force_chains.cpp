@@ -48,11 +48,14 @@ private:
 
 class ForceChainSeries : public Series {
 public:
-    explicit ForceChainSeries(double threshold) : threshold_(threshold) {}
+    ForceChainSeries(double threshold, std::int64_t dimension)
+        : threshold_(threshold), dimension_(dimension) {}
 
     [[nodiscard]] std::vector<LogColumn> columns() const override {
-        return {{"time", "s"},    {"mean_pressure", "N/m"}, {"triples", "1"},     {"chains", "1"},
-                {"members", "1"}, {"member_share", "1"},    {"mean_length", "1"}, {"longest", "1"}};
+        return {{"time", "s"},        {"mean_pressure", pressure_unit(dimension_)},
+                {"triples", "1"},     {"chains", "1"},
+                {"members", "1"},     {"member_share", "1"},
+                {"mean_length", "1"}, {"longest", "1"}};
     }
     void add(const Frame& frame) override {
         const double mean = mean_pressure(frame.grains);
@@ -68,6 +71,7 @@ public:
 
 private:
     double threshold_; // in units of the mean pressure
+    std::int64_t dimension_;
 };
 
 } // namespace
@@ -113,8 +117,8 @@ double mean_pressure(const Snapshot& s) {
     return std::accumulate(s.pressure.begin(), s.pressure.end(), 0.0) / static_cast<double>(s.size());
 }
 
-std::unique_ptr<Analysis> make_force_chains(const scene::Scene&, const scene::AnalysisSpec& spec) {
-    return std::make_unique<ForceChainSeries>(spec.threshold);
+std::unique_ptr<Analysis> make_force_chains(const scene::Scene& scene, const scene::AnalysisSpec& spec) {
+    return std::make_unique<ForceChainSeries>(spec.threshold, scene.domain.dimension);
 }
 
 } // namespace sandlane::analysis

@@ -15,10 +15,10 @@ struct ForceChains {
     [[nodiscard]] std::int64_t members() const;
 };
 
-// threshold: pressure that each of the three must exceed, N/m.
+// threshold: pressure that each of the three must exceed, N/m or Pa.
 [[nodiscard]] ForceChains find_force_chains(const Frame& frame, double threshold);
 
-// Mean of the pressure over all free grains, N/m; 0 without grains.
+// Mean of the pressure over all free grains, N/m or Pa; 0 without grains.
 [[nodiscard]] double mean_pressure(const Snapshot& snapshot);
 
 } // namespace sandlane::analysis

@@ -1,12 +1,13 @@
 // Pair correlation g(r): pairs of centres at distance r over those of grains placed at random in the same
 // region. Across sides that are not periodic the number for random grains follows from the mean overlap of
-// the rectangle with itself shifted by r (set covariance, Stoyan, Kendall, Mecke 1995), so that an ideal gas
-// gives 1 at every r.
+// the rectangle, or box, with itself shifted by r in any direction (set covariance, Stoyan, Kendall, Mecke
+// 1995), so that an ideal gas gives 1 at every r.
 #include "analysis/analysis.hpp"
 #include "analysis/region.hpp"
 #include "scene/cell_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 namespace sandlane::analysis {
@@ -15,9 +16,8 @@ namespace {
 
 class PairCorrelation : public Average {
 public:
-    PairCorrelation(Region region, bool periodic_x, bool periodic_y, double range, std::size_t bins)
-        : Average(2 * bins), region_(region), periodic_x_(periodic_x), periodic_y_(periodic_y), range_(range),
-          bins_(bins) {}
+    PairCorrelation(Region region, std::array<bool, 3> periodic, double range, std::size_t bins)
+        : Average(2 * bins), region_(region), periodic_(periodic), range_(range), bins_(bins) {}
 
     [[nodiscard]] std::vector<LogColumn> columns() const override {
         return {{"distance", "m"}, {"g", "1"}, {"pairs", "1"}};
@@ -47,12 +47,13 @@ private:
         scene::Domain domain;
         domain.lower = region_.lower;
         domain.upper = region_.upper;
-        domain.periodic = {periodic_x_, periodic_y_};
+        domain.dimension = region_.dimension;
+        domain.periodic = periodic_;
         const scene::Box box(domain);
         scene::CellGrid grid(box, range_, s.size());
         std::vector<Vec> inside;
         for (std::size_t i = 0; i < s.size(); ++i) {
-            const Vec p{s.x[i], s.y[i], 0};
+            const Vec p = s.position(i);
             if (!region_.contains(p)) continue;
             grid.for_near(p, [&](std::size_t other) { count(norm(box.separation(p, inside[other]))); });
             grid.insert(p);
@@ -69,12 +70,30 @@ private:
 
     // Probability that two random points of the region are closer than r, for r up to the shorter open side.
     [[nodiscard]] double random(double r) const {
-        const double a = region_.size().x, b = region_.size().y, area = region_.area();
+        return region_.dimension == 3 ? random_in_box(r) : random_in_rectangle(r);
+    }
+
+    [[nodiscard]] double random_in_rectangle(double r) const {
+        const double a = region_.size().x, b = region_.size().y, area = region_.measure();
         double sides = 0; // length of the sides that a shifted rectangle loses
-        if (!periodic_x_) sides += b;
-        if (!periodic_y_) sides += a;
-        const double corner = periodic_x_ || periodic_y_ ? 0 : 0.5 * r * r * r * r;
+        if (!periodic_[0]) sides += b;
+        if (!periodic_[1]) sides += a;
+        const double corner = periodic_[0] || periodic_[1] ? 0 : 0.5 * r * r * r * r;
         return (std::numbers::pi * area * r * r - 4.0 / 3.0 * sides * r * r * r + corner) / (area * area);
+    }
+
+    // A box a b c shifted by h keeps (a - |h_x|)(b - |h_y|)(c - |h_z|). Over all directions |h_x| is r/2 in
+    // the mean, |h_x h_y| is 2 r^2/(3 pi), |h_x h_y h_z| is r^3/(4 pi); a periodic side loses nothing.
+    [[nodiscard]] double random_in_box(double r) const {
+        const Vec size = region_.size();
+        const double x = periodic_[0] ? 0 : 1, y = periodic_[1] ? 0 : 1, z = periodic_[2] ? 0 : 1;
+        const double volume = region_.measure();
+        const double faces = x * size.y * size.z + y * size.x * size.z + z * size.x * size.y;
+        const double edges = x * y * size.z + x * z * size.y + y * z * size.x, corner = x * y * z;
+        const double r3 = r * r * r;
+        const double pi = std::numbers::pi;
+        return r3 * (4 * pi / 3 * volume - pi / 2 * faces * r + 8.0 / 15 * edges * r * r - corner / 6 * r3) /
+               (volume * volume);
     }
 
     double& expected(std::size_t bin) { return sums_[bins_ + bin]; }
@@ -83,7 +102,7 @@ private:
     }
 
     Region region_;
-    bool periodic_x_, periodic_y_;
+    std::array<bool, 3> periodic_;
     double range_;
     std::size_t bins_;
 };
@@ -92,11 +111,11 @@ private:
 
 std::unique_ptr<Analysis> make_pair_correlation(const scene::Scene& scene, const scene::AnalysisSpec& spec) {
     const Region region = region_of(scene, spec);
-    const bool whole = is_whole_domain(spec);
-    const double shortest = std::min(region.size().x, region.size().y);
-    return std::make_unique<PairCorrelation>(region, whole && scene.domain.periodic[0],
-                                             whole && scene.domain.periodic[1],
-                                             spec.range > 0 ? spec.range : 0.5 * shortest,
+    const std::array<bool, 3> periodic =
+        is_whole_domain(spec) ? scene.domain.periodic : std::array<bool, 3>{};
+    double shortest = std::min(region.size().x, region.size().y);
+    if (region.dimension == 3) shortest = std::min(shortest, region.size().z);
+    return std::make_unique<PairCorrelation>(region, periodic, spec.range > 0 ? spec.range : 0.5 * shortest,
                                              spec.bins > 0 ? static_cast<std::size_t>(spec.bins) : 100);
 }
 

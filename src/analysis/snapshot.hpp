@@ -47,7 +47,17 @@ struct Snapshot {
     std::vector<WallShape> walls;
 
     [[nodiscard]] std::size_t size() const { return id.size(); }
+    [[nodiscard]] Vec position(std::size_t i) const { return {x[i], y[i], dimension == 3 ? z[i] : 0.0}; }
+    [[nodiscard]] Vec velocity(std::size_t i) const { return {vx[i], vy[i], dimension == 3 ? vz[i] : 0.0}; }
+    [[nodiscard]] Vec angular_velocity(std::size_t i) const {
+        return dimension == 3 ? Vec{omega_x[i], omega_y[i], omega[i]} : Vec{0, 0, omega[i]};
+    }
 };
+
+// Of a pressure or stress: in the plane a force per length.
+[[nodiscard]] inline std::string pressure_unit(std::int64_t dimension) {
+    return dimension == 3 ? "Pa" : "N/m";
+}
 
 // One column of the log; the header of log.csv reads "name[unit]".
 struct LogColumn {

@@ -30,46 +30,59 @@ void append_header(const Snapshot& s, std::size_t atoms, bool images, std::strin
     append_line(text, static_cast<std::int64_t>(atoms));
     text += "ITEM: BOX BOUNDS ";
     text += s.periodic_x ? "pp " : "ff ";
-    text += s.periodic_y ? "pp ff\n" : "ff ff\n"; // the world is a plane: no images along z
+    text += s.periodic_y ? "pp " : "ff ";
+    text += s.periodic_z ? "pp\n" : "ff\n";
     append_line(text, s.lower.x, s.upper.x);
     append_line(text, s.lower.y, s.upper.y);
-    append_line(text, -half_depth(s), half_depth(s));
-    text += "ITEM: ATOMS id type x y z vx vy vz radius mass omegaz angle pressure";
-    text += images ? " ix iy iz\n" : "\n";
+    const auto [bottom, top] = depth_range(s);
+    append_line(text, bottom, top);
+    text += "ITEM: ATOMS id type x y z vx vy vz radius mass ";
+    text += s.dimension == 2 ? "omegaz angle" : "omegax omegay omegaz";
+    if (!s.orientation.empty()) text += " quatw quati quatj quatk";
+    text += images ? " pressure ix iy iz\n" : " pressure\n";
 }
 
 void append_grain(const Snapshot& s, std::size_t i, std::string& text) {
-    const double plane = 0;
-    append_line(text, s.id[i], std::int64_t{s.material[i]} + 1, s.x[i], s.y[i], plane, s.vx[i], s.vy[i],
-                plane, s.radius[i], s.mass[i], s.omega[i], s.angle[i], s.pressure[i]);
+    const Vec at = s.position(i), v = s.velocity(i);
+    append_numbers(text, s.id[i], std::int64_t{s.material[i]} + 1, at.x, at.y, at.z, v.x, v.y, v.z,
+                   s.radius[i], s.mass[i]);
+    if (s.dimension == 2)
+        append_numbers(text, s.omega[i], s.angle[i]);
+    else
+        append_numbers(text, s.omega_x[i], s.omega_y[i], s.omega[i]);
+    if (!s.orientation.empty()) {
+        const Quaternion& q = s.orientation[i];
+        append_numbers(text, q.w, q.x, q.y, q.z);
+    }
+    append_line(text, s.pressure[i]);
 }
 
-// A wall disc has no mass of its own: it moves as prescribed.
+// 2D. A wall disc has no mass of its own: it moves as prescribed.
 void append_wall_disc(const WallShape& disc, std::int64_t id, std::string& text) {
     const double none = 0;
     append_line(text, id, first_wall_type + disc.wall, disc.centre.x, disc.centre.y, none, disc.velocity.x,
                 disc.velocity.y, none, disc.radius, none, disc.omega, disc.angle, none);
 }
 
-void append_images(std::int64_t x, std::int64_t y, std::string& text) {
+void append_images(std::int64_t x, std::int64_t y, std::int64_t z, std::string& text) {
     text.back() = ' ';
-    append_line(text, x, y, std::int64_t{0});
+    append_line(text, x, y, z);
 }
 
 void DumpWriter::format(const Snapshot& s, std::string& text) const {
-    const bool images = s.periodic_x || s.periodic_y;
+    const bool images = s.periodic_x || s.periodic_y || s.periodic_z;
     std::size_t discs = 0;
     for (const WallShape& wall : s.walls) discs += wall.kind == WallShape::Kind::disc ? 1 : 0;
     append_header(s, s.size() + discs, images, text);
     for (std::size_t i = 0; i < s.size(); ++i) {
         append_grain(s, i, text);
-        if (images) append_images(s.image_x[i], s.image_y[i], text);
+        if (images) append_images(s.image_x[i], s.image_y[i], s.dimension == 3 ? s.image_z[i] : 0, text);
     }
     std::int64_t id = first_wall_id;
     for (const WallShape& wall : s.walls) {
         if (wall.kind != WallShape::Kind::disc) continue;
         append_wall_disc(wall, id++, text);
-        if (images) append_images(0, 0, text);
+        if (images) append_images(0, 0, 0, text);
     }
 }
 

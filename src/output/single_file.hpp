@@ -26,7 +26,10 @@ private:
 // Wall discs stand beside the grains in some formats; their ids start here, above any grain's.
 inline constexpr std::int64_t first_wall_id = 1'000'000'000;
 
-// Half the extent given to the plane in formats that know only boxes: the largest radius.
-[[nodiscard]] double half_depth(const analysis::Snapshot& snapshot);
+// Extent along z, m. Formats that know only boxes give a plane the depth of its largest grain.
+struct DepthRange {
+    double bottom, top;
+};
+[[nodiscard]] DepthRange depth_range(const analysis::Snapshot& snapshot);
 
 } // namespace sandlane::output

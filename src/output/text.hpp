@@ -10,9 +10,13 @@ namespace sandlane::output {
 void append(std::string& text, double value);
 void append(std::string& text, std::int64_t value);
 
+// Appends the values, each followed by a blank.
+template <class... Values> void append_numbers(std::string& text, Values... values) {
+    ((append(text, values), text += ' '), ...);
+}
 // Appends the values separated by blanks, and a line end.
 template <class... Values> void append_line(std::string& text, Values... values) {
-    ((append(text, values), text += ' '), ...);
+    append_numbers(text, values...);
     text.back() = '\n';
 }
 

@@ -51,11 +51,24 @@ std::vector<float> single(const std::vector<double>& values) {
     return out;
 }
 
-std::vector<float> triples(const std::vector<double>& x, const std::vector<double>& y) {
+// of(i): the vector of grain i.
+template <class Of> std::vector<float> triples(std::size_t count, const Of& of) {
     std::vector<float> out;
-    out.reserve(3 * x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-        out.insert(out.end(), {static_cast<float>(x[i]), static_cast<float>(y[i]), 0.0F});
+    out.reserve(3 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec v = of(i);
+        out.insert(out.end(), {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
+    }
+    return out;
+}
+
+// w x y z, the order of VTK.
+std::vector<float> quadruples(const std::vector<Quaternion>& quaternions) {
+    std::vector<float> out;
+    out.reserve(4 * quaternions.size());
+    for (const Quaternion& q : quaternions)
+        out.insert(out.end(), {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
+                               static_cast<float>(q.z)});
     return out;
 }
 
@@ -85,45 +98,64 @@ std::string grains_document(const Snapshot& s) {
                     "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData Scalars=\"radius\">\n",
                     s.size());
     piece += blocks.declare("Float32", "radius", 1, single(s.radius));
-    piece += blocks.declare("Float32", "velocity", 3, triples(s.vx, s.vy));
-    piece += blocks.declare("Float32", "omega", 1, single(s.omega));
-    piece += blocks.declare("Float32", "angle", 1, single(s.angle));
+    const auto vectors = [&](const char* name, Vec (Snapshot::*of)(std::size_t) const) {
+        piece +=
+            blocks.declare("Float32", name, 3, triples(s.size(), [&](std::size_t i) { return (s.*of)(i); }));
+    };
+    vectors("velocity", &Snapshot::velocity);
+    if (s.dimension == 3) {
+        vectors("omega", &Snapshot::angular_velocity);
+    } else {
+        piece += blocks.declare("Float32", "omega", 1, single(s.omega));
+        piece += blocks.declare("Float32", "angle", 1, single(s.angle));
+    }
+    if (!s.orientation.empty())
+        piece += blocks.declare("Float32", "orientation", 4, quadruples(s.orientation));
     piece += blocks.declare("Float32", "mass", 1, single(s.mass));
     piece += blocks.declare("Float32", "pressure", 1, single(s.pressure));
     piece += blocks.declare("Int64", "id", 1, s.id);
     piece += blocks.declare("Int32", "material", 1, s.material);
-    piece += "</PointData>\n<Points>\n" + blocks.declare("Float32", "Points", 3, triples(s.x, s.y));
+    piece += "</PointData>\n<Points>\n";
+    vectors("Points", &Snapshot::position);
     piece += "</Points>\n<Verts>\n" + blocks.declare("Int64", "connectivity", 1, connectivity);
     piece += blocks.declare("Int64", "offsets", 1, offsets) + "</Verts>\n</Piece>\n";
     return document(s, piece, blocks);
 }
 
-// Poly-lines: a segment has two points, arcs and discs one point every four degrees.
-struct Lines {
+// Walls as cells. 2D: poly-lines; a segment has two points, arcs and discs one point every four degrees.
+// 3D: triangles.
+struct Cells {
     std::vector<float> points;
     std::vector<std::int64_t> connectivity, offsets;
     std::vector<std::int32_t> wall, material;
 
-    void add_point(double x, double y) {
+    void add_point(Vec p) {
         connectivity.push_back(static_cast<std::int64_t>(points.size() / 3));
-        points.insert(points.end(), {static_cast<float>(x), static_cast<float>(y), 0.0F});
+        points.insert(points.end(),
+                      {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
     }
     void add_arc(Vec centre, double radius, double from, double to) {
         const int steps =
             std::max(2, static_cast<int>(std::ceil(std::abs(to - from) * 45 / std::numbers::pi)));
         for (int k = 0; k <= steps; ++k) {
             const double angle = from + (to - from) * k / steps;
-            add_point(centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle));
+            add_point({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle), 0});
         }
     }
     void add(const WallShape& shape) {
-        if (shape.kind == WallShape::Kind::segment) {
-            add_point(shape.a.x, shape.a.y);
-            add_point(shape.b.x, shape.b.y);
-        } else if (shape.kind == WallShape::Kind::arc) {
+        switch (shape.kind) {
+        case WallShape::Kind::segment:
+            for (const Vec p : {shape.a, shape.b}) add_point(p);
+            break;
+        case WallShape::Kind::arc:
             add_arc(shape.centre, shape.radius, shape.angle_from, shape.angle_to);
-        } else {
+            break;
+        case WallShape::Kind::disc:
             add_arc(shape.centre, shape.radius, shape.angle, shape.angle + 2 * std::numbers::pi);
+            break;
+        case WallShape::Kind::triangle:
+            for (const Vec p : {shape.a, shape.b, shape.c}) add_point(p);
+            break;
         }
         offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
         wall.push_back(shape.wall);
@@ -132,25 +164,34 @@ struct Lines {
 };
 
 std::string walls_document(const Snapshot& s) {
-    Lines lines;
-    for (const WallShape& shape : s.walls) lines.add(shape);
+    Cells cells;
+    for (const WallShape& shape : s.walls) cells.add(shape);
     Blocks blocks;
+    const char* kind = s.dimension == 3 ? "Polys" : "Lines";
+    const std::size_t count = cells.wall.size();
     std::string piece =
         fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" "
-                    "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<CellData Scalars=\"wall\">\n",
-                    lines.points.size() / 3, lines.wall.size());
-    piece += blocks.declare("Int32", "wall", 1, lines.wall);
-    piece += blocks.declare("Int32", "material", 1, lines.material);
-    piece += "</CellData>\n<Points>\n" + blocks.declare("Float32", "Points", 3, lines.points);
-    piece += "</Points>\n<Lines>\n" + blocks.declare("Int64", "connectivity", 1, lines.connectivity);
-    piece += blocks.declare("Int64", "offsets", 1, lines.offsets) + "</Lines>\n</Piece>\n";
+                    "NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n<CellData Scalars=\"wall\">\n",
+                    cells.points.size() / 3, s.dimension == 3 ? 0 : count, s.dimension == 3 ? count : 0);
+    piece += blocks.declare("Int32", "wall", 1, cells.wall);
+    piece += blocks.declare("Int32", "material", 1, cells.material);
+    piece += "</CellData>\n<Points>\n" + blocks.declare("Float32", "Points", 3, cells.points);
+    piece += fmt::format("</Points>\n<{}>\n{}", kind,
+                         blocks.declare("Int64", "connectivity", 1, cells.connectivity));
+    piece += fmt::format("{}</{}>\n</Piece>\n", blocks.declare("Int64", "offsets", 1, cells.offsets), kind);
     return document(s, piece, blocks);
 }
 
 // Frames are numbered from 0. Walls at rest are written with frame 0 only, and every later time points there.
+// The index is a small XML document that grows with the run: written with every frame it would cost the
+// square of their number. It is written when it has grown by an eighth, with every checkpoint, and at the
+// end.
 class VtpWriter final : public TrajectoryWriter {
 public:
     VtpWriter(fs::path folder, const scene::Scene& scene, const std::string& bookmark);
+    VtpWriter(const VtpWriter&) = delete;
+    VtpWriter& operator=(const VtpWriter&) = delete;
+    ~VtpWriter() override;
     void write(const Snapshot& snapshot) override;
     std::string bookmark() override; // "walls" (1 or 0) and the time of every frame, separated by blanks
 
@@ -160,11 +201,12 @@ private:
     }
     void restore(const std::string& bookmark);
     void remove_frames_from(std::size_t frame) const;
-    void write_index() const;
+    void write_index();
 
     fs::path folder_;
     bool walls_move_ = false, has_walls_ = false;
     std::vector<double> times_;
+    std::size_t indexed_ = 0; // frames in the index on the disk
 };
 
 VtpWriter::VtpWriter(fs::path folder, const scene::Scene& scene, const std::string& bookmark)
@@ -211,7 +253,7 @@ void VtpWriter::remove_frames_from(std::size_t frame) const {
     }
 }
 
-void VtpWriter::write_index() const {
+void VtpWriter::write_index() {
     std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
                        "byte_order=\"LittleEndian\">\n<Collection>\n";
     const auto add = [&](double time, int part, const fs::path& path) {
@@ -225,6 +267,16 @@ void VtpWriter::write_index() const {
         if (has_walls_) add(times_[frame], 1, file("walls_", walls_move_ ? frame : 0));
     }
     write_file_atomically(folder_ / "trajectory.pvd", text + "</Collection>\n</VTKFile>\n");
+    indexed_ = times_.size();
+}
+
+// Also of a run that ends with an error: its frames are there to be looked at.
+VtpWriter::~VtpWriter() {
+    if (indexed_ == times_.size()) return;
+    try {
+        write_index();
+    } catch (...) { // NOLINT(bugprone-empty-catch): a full disk; the index on it lacks the last frames
+    }
 }
 
 void VtpWriter::write(const Snapshot& snapshot) {
@@ -234,10 +286,11 @@ void VtpWriter::write(const Snapshot& snapshot) {
     if (has_walls_ && (walls_move_ || frame == 0))
         write_file_atomically(file("walls_", frame), walls_document(snapshot));
     times_.push_back(snapshot.time);
-    write_index();
+    if (times_.size() > indexed_ + indexed_ / 8) write_index();
 }
 
 std::string VtpWriter::bookmark() {
+    if (indexed_ != times_.size()) write_index();
     std::string text = has_walls_ ? "1" : "0";
     for (const double time : times_) {
         text += ' ';

@@ -33,12 +33,13 @@ std::int64_t length_in(const std::string& bookmark, const std::filesystem::path&
     return length;
 }
 
-double half_depth(const analysis::Snapshot& snapshot) {
-    double largest = 0;
-    for (const double radius : snapshot.radius) largest = std::max(largest, radius);
-    if (largest > 0) return largest;
+DepthRange depth_range(const analysis::Snapshot& snapshot) {
+    if (snapshot.dimension == 3) return {snapshot.lower.z, snapshot.upper.z};
+    double half = 0;
+    for (const double radius : snapshot.radius) half = std::max(half, radius);
     const double width = snapshot.upper.x - snapshot.lower.x;
-    return width > 0 ? 0.01 * width : 1;
+    if (!(half > 0)) half = width > 0 ? 0.01 * width : 1;
+    return {-half, half};
 }
 
 std::unique_ptr<TrajectoryWriter> make_trajectory_writer(scene::Trajectory kind,

@@ -39,24 +39,43 @@ private:
 
 void XyzWriter::append_comment(const Snapshot& s, std::string& text) const {
     const double none = 0;
-    const double depth = half_depth(s);
+    const auto [bottom, top] = depth_range(s);
     text += "Lattice=\"";
     append_line(text, s.upper.x - s.lower.x, none, none, none, s.upper.y - s.lower.y, none, none, none,
-                2 * depth);
+                top - bottom);
     text.back() = '"';
     text += " Origin=\"";
-    append_line(text, s.lower.x, s.lower.y, -depth);
+    append_line(text, s.lower.x, s.lower.y, bottom);
     text.back() = '"';
-    text += " Properties=species:S:1:pos:R:3:velo:R:3:id:I:1:material:I:1:radius:R:1:mass:R:1:omega:R:1:"
-            "angle:R:1:"
-            "pressure:R:1 Time=";
+    text += " Properties=species:S:1:pos:R:3:velo:R:3:id:I:1:material:I:1:radius:R:1:mass:R:1:";
+    text += s.dimension == 2 ? "omega:R:1:angle:R:1:" : "omega:R:3:";
+    if (!s.orientation.empty()) text += "orientation:R:4:"; // x y z w, as OVITO reads it
+    text += "pressure:R:1 Time=";
     append(text, s.time);
     text += " Step=";
     append(text, s.step);
     text += " pbc=\"";
     text += s.periodic_x ? "T " : "F ";
-    text += s.periodic_y ? "T F\"" : "F F\"";
+    text += s.periodic_y ? "T " : "F ";
+    text += s.periodic_z ? "T\"" : "F\"";
     text += " materials=\"" + materials_ + "\"\n";
+}
+
+void append_grain(const Snapshot& s, std::size_t i, std::string& text) {
+    const Vec at = s.position(i), v = s.velocity(i);
+    text += elements[static_cast<std::size_t>(s.material[i]) % elements.size()];
+    text += ' ';
+    append_numbers(text, at.x, at.y, at.z, v.x, v.y, v.z, s.id[i], std::int64_t{s.material[i]}, s.radius[i],
+                   s.mass[i]);
+    if (s.dimension == 2)
+        append_numbers(text, s.omega[i], s.angle[i]);
+    else
+        append_numbers(text, s.omega_x[i], s.omega_y[i], s.omega[i]);
+    if (!s.orientation.empty()) {
+        const Quaternion& q = s.orientation[i];
+        append_numbers(text, q.x, q.y, q.z, q.w);
+    }
+    append_line(text, s.pressure[i]);
 }
 
 void XyzWriter::format(const Snapshot& s, std::string& text) const {
@@ -65,12 +84,7 @@ void XyzWriter::format(const Snapshot& s, std::string& text) const {
     for (const WallShape& wall : s.walls) discs += wall.kind == WallShape::Kind::disc ? 1 : 0;
     append_line(text, static_cast<std::int64_t>(s.size()) + discs);
     append_comment(s, text);
-    for (std::size_t i = 0; i < s.size(); ++i) {
-        text += elements[static_cast<std::size_t>(s.material[i]) % elements.size()];
-        text += ' ';
-        append_line(text, s.x[i], s.y[i], none, s.vx[i], s.vy[i], none, s.id[i], std::int64_t{s.material[i]},
-                    s.radius[i], s.mass[i], s.omega[i], s.angle[i], s.pressure[i]);
-    }
+    for (std::size_t i = 0; i < s.size(); ++i) append_grain(s, i, text);
     std::int64_t id = first_wall_id;
     for (const WallShape& wall : s.walls) {
         if (wall.kind != WallShape::Kind::disc) continue;

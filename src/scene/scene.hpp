@@ -23,9 +23,12 @@ enum class TangentialLaw {
 };
 enum class Integrator { gear4, gear5, gear6, velocity_verlet };
 enum class NeighbourMethod { automatic, brute_force, link_cells, lattice, lattice_half, verlet };
-enum class Inertia { disc, sphere };  // J = m R^2/2 or 2/5 m R^2 (docs/physics.md 1)
-enum class Body { sphere, disc };     // mass of a grain: 4/3 pi R^3 rho, or pi R^2 rho (per metre of depth)
-enum class LeverArm { undeformed, plane }; // R, or the distance to the plane of the contact (docs/physics.md 2)
+enum class Inertia { disc, sphere }; // J = m R^2/2 or 2/5 m R^2 (docs/physics.md 1)
+enum class Body { sphere, disc };    // mass of a grain: 4/3 pi R^3 rho, or pi R^2 rho (per metre of depth)
+enum class LeverArm {
+    undeformed,
+    plane
+};                                    // R, or the distance to the plane of the contact (docs/physics.md 2)
 enum class Outside { error, remove }; // what happens to a grain that leaves an open side of the domain
 enum class GrainKind { lattice, random, pour, list, file };
 enum class SizeLaw { constant, uniform, inverse_square, lognormal };
@@ -174,6 +177,10 @@ enum class AnalysisKind {
 #include "scene/analyses.def"
 };
 
+// Which grains are the first population of two: those of the lower half along `axis` in the first frame, of
+// the material that comes first in the scene, or the smaller ones.
+enum class Populations { sides, materials, sizes };
+
 // One [[analysis]]; a kind reads only its own keys.
 struct AnalysisSpec {
     std::string name;
@@ -181,10 +188,11 @@ struct AnalysisSpec {
     double every = 0; // s; 0: duration/100
     double start = 0; // s: frames before it are left out
     Vec from, to; // flow: ends of the line; else: corners of the region, the domain where they are the same
-    Axis axis = Axis::y;   // profile
+    Axis axis = Axis::y;   // profile; 3D map: viewing direction; mixing: across the sides
     std::int64_t bins = 0; // 0: chosen by the kind
     double range = 0;      // pair-correlation: largest distance, m; 0: half the shorter side
     double threshold = 1;  // force-chains, map: in units of the mean pressure
+    Populations populations = Populations::sides; // mixing
 };
 
 struct Output {
@@ -195,6 +203,8 @@ struct Output {
     std::vector<Trajectory> trajectory{Trajectory::dump};
     Colour colour = Colour::speed;
     std::int64_t picture_width = 800; // pixels
+    // 3D pictures: azimuth about the upward direction and elevation of the viewer, degrees
+    std::array<double, 2> view{25, 20};
     bool movie = true;
     bool report = true;
 };

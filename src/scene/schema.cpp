@@ -166,9 +166,10 @@ const Table<Md>& md_table() {
                     "springs of loading and unloading (Walton and Braun)")
             .flag("cut", &Md::cut,
                   "normal forces of dashpots end at zero; false: a contact pulls until its overlap is gone")
-            .choice("lever_arm", &Md::lever_arm, {"undeformed", "plane"},
-                    "lever arm of tangential forces: the radius, or the distance to the plane of the contact, "
-                    "which conserves the angular momentum of pairs")
+            .choice(
+                "lever_arm", &Md::lever_arm, {"undeformed", "plane"},
+                "lever arm of tangential forces: the radius, or the distance to the plane of the contact, "
+                "which conserves the angular momentum of pairs")
             .choice("tangential", &Md::tangential, tangential_choices(), "tangential force")
             .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6", "velocity-verlet"},
                     "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet")
@@ -195,9 +196,10 @@ const Table<AnalysisSpec>& analysis_table() {
     };
     static const Table<AnalysisSpec> table =
         Table<AnalysisSpec>(
-            "What a run measures of its grains; each writes `NAME.csv`. flow, force-chains and stress add a "
-            "row "
-            "per frame; profile, pair-correlation and map average over frames: their tables are written with "
+            "What a run measures of its grains; each writes `NAME.csv`. flow, force-chains, mixing and "
+            "stress "
+            "add a row per frame; profile, pair-correlation and map average over frames: their tables are "
+            "written with "
             "every checkpoint and at the end, maps as pictures `NAME-*.png` too. A pressure is a force per "
             "length in the plane, N/m, and in space a force per area, Pa.")
             .text("name", &AnalysisSpec::name, "name of the files")
@@ -205,7 +207,8 @@ const Table<AnalysisSpec>& analysis_table() {
             .choice(
                 "kind", &AnalysisSpec::kind, kinds,
                 "strips across an axis; g(r); force chains; bins in the plane; what crosses a line, in 3D a "
-                "rectangle; stress tensor, contact number and packing fraction of a region")
+                "rectangle; stress tensor, contact number and packing fraction of a region; how well "
+                "two populations are mixed")
             .required()
             .number("every", &AnalysisSpec::every, Unit::time, not_negative(),
                     "time between frames; 0: duration/100")
@@ -220,14 +223,19 @@ const Table<AnalysisSpec>& analysis_table() {
                 "corner, with one coordinate equal to that of from: along this axis counts positive; else: "
                 "the other corner, the same as from: the whole domain")
             .choice("axis", &AnalysisSpec::axis, axis_choices(3),
-                    "profile: axis across the strips, \"z\" in 3D only")
-            .integer("bins", &AnalysisSpec::bins, between(0, 4096),
-                     "profile: strips (0: 50); pair-correlation: distances (0: 100); map: columns (0: one "
-                     "mean diameter wide)")
+                    "profile: axis across the strips; mixing: axis across the sides; \"z\" in 3D only")
+            .integer(
+                "bins", &AnalysisSpec::bins, between(0, 4096),
+                "profile: strips (0: 50); pair-correlation: distances (0: 100); map: columns (0: one "
+                "mean diameter wide); mixing: cells along the longest side (0: three mean diameters wide)")
             .number("range", &AnalysisSpec::range, Unit::length, not_negative(),
                     "pair-correlation: largest distance; 0: half the shorter side")
             .number("threshold", &AnalysisSpec::threshold, Unit::none, not_negative(),
-                    "force-chains, map: pressure that counts as load, in units of the mean over all grains");
+                    "force-chains, map: pressure that counts as load, in units of the mean over all grains")
+            .choice(
+                "populations", &AnalysisSpec::populations, {"sides", "materials", "sizes"},
+                "mixing: the lower half along axis in the first frame, the first material, or the smaller "
+                "grains, against the others");
     return table;
 }
 

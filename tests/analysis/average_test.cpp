@@ -226,9 +226,10 @@ TEST(Flow, RatePerTime) {
 
 // Every kind: what is saved half way leads to the same rows.
 TEST(Analyses, GoOnAfterLoading) {
-    for (const auto kind : {scene::AnalysisKind::profile, scene::AnalysisKind::pair_correlation,
-                            scene::AnalysisKind::force_chains, scene::AnalysisKind::map,
-                            scene::AnalysisKind::flow, scene::AnalysisKind::stress}) {
+    for (const auto kind :
+         {scene::AnalysisKind::profile, scene::AnalysisKind::pair_correlation,
+          scene::AnalysisKind::force_chains, scene::AnalysisKind::map, scene::AnalysisKind::flow,
+          scene::AnalysisKind::stress, scene::AnalysisKind::mixing}) {
         SCOPED_TRACE(static_cast<int>(kind));
         scene::AnalysisSpec spec = spec_of(kind);
         if (kind == scene::AnalysisKind::flow) spec = {spec.name, kind, 0, 0, {0.5, 0, 0}, {0.5, 1, 0}};

@@ -15,9 +15,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr AnalysisKind all_kinds[] = {AnalysisKind::profile,      AnalysisKind::pair_correlation,
-                                      AnalysisKind::force_chains, AnalysisKind::map,
-                                      AnalysisKind::flow,         AnalysisKind::stress};
+constexpr AnalysisKind all_kinds[] = {
+    AnalysisKind::profile, AnalysisKind::pair_correlation, AnalysisKind::force_chains, AnalysisKind::map,
+    AnalysisKind::flow,    AnalysisKind::stress,           AnalysisKind::mixing};
 
 scene::AnalysisSpec spec_of(AnalysisKind kind) {
     scene::AnalysisSpec spec;

@@ -19,16 +19,17 @@ namespace {
 
 // Writes three frames, takes the bookmark, writes two more; then opens again at the bookmark and writes the
 // two again. open(folder, bookmark) returns a pointer to something with write(snapshot) and bookmark().
-template <class Open> void expect_same_files(const Open& open) {
+template <analysis::Snapshot (*snapshot)(int) = sample::walled_row, class Open>
+void expect_same_files(const Open& open) {
     const sample::Folder folder("continue");
     std::string bookmark;
     std::map<std::string, std::string> at_bookmark;
     {
         const auto writer = open(folder.path(), std::string());
-        for (int n = 0; n < 3; ++n) writer->write(sample::walled_row(n));
+        for (int n = 0; n < 3; ++n) writer->write(snapshot(n));
         bookmark = writer->bookmark();
         at_bookmark = files_of(folder.path());
-        for (int n = 3; n < 5; ++n) writer->write(sample::walled_row(n));
+        for (int n = 3; n < 5; ++n) writer->write(snapshot(n));
     }
     const auto undisturbed = files_of(folder.path());
     ASSERT_FALSE(undisturbed.empty());
@@ -37,7 +38,7 @@ template <class Open> void expect_same_files(const Open& open) {
         const auto writer = open(folder.path(), bookmark);
         EXPECT_EQ(writer->bookmark(), bookmark);
         EXPECT_EQ(files_of(folder.path()), at_bookmark); // what came after the checkpoint is cut off
-        for (int n = 3; n < 5; ++n) writer->write(sample::walled_row(n));
+        for (int n = 3; n < 5; ++n) writer->write(snapshot(n));
     }
     EXPECT_EQ(files_of(folder.path()), undisturbed);
 }
@@ -85,6 +86,18 @@ TEST(Continue, Trajectories) {
         scene.walls.resize(1);
         scene.walls[0].motion = "lift";
         expect_same_files([&](const fs::path& folder, const std::string& bookmark) {
+            return make_trajectory_writer(kind, folder, scene, bookmark);
+        });
+    }
+}
+
+TEST(Continue, TrajectoriesOfSpace) {
+    for (const auto kind : {scene::Trajectory::dump, scene::Trajectory::xyz, scene::Trajectory::vtp}) {
+        SCOPED_TRACE(static_cast<int>(kind));
+        scene::Scene scene = sample::space_scene();
+        scene.walls.resize(1);
+        scene.walls[0].motion = "lift";
+        expect_same_files<sample::space_row>([&](const fs::path& folder, const std::string& bookmark) {
             return make_trajectory_writer(kind, folder, scene, bookmark);
         });
     }

@@ -95,6 +95,61 @@ inline Snapshot walled_row(int frame) {
     return s;
 }
 
+inline WallShape triangle(Vec a, Vec b, Vec c, int index = 0) {
+    WallShape wall;
+    wall.kind = WallShape::Kind::triangle;
+    wall.a = a;
+    wall.b = b;
+    wall.c = c;
+    wall.wall = index;
+    return wall;
+}
+
+inline Snapshot empty_space(double time = 0) {
+    Snapshot s = empty(time);
+    s.dimension = 3;
+    s.lower = {0, 0, -0.05};
+    s.upper = {0.2, 0.1, 0.15};
+    return s;
+}
+
+inline void add_sphere(Snapshot& s, Vec at, double radius, Vec velocity = {}, Vec spin = {},
+                       double pressure = 0, int material = 0) {
+    add_grain(s, at.x, at.y, radius, velocity.x, velocity.y, spin.z, 0, pressure, material);
+    s.z.push_back(at.z);
+    s.vz.push_back(velocity.z);
+    s.omega_x.push_back(spin.x);
+    s.omega_y.push_back(spin.y);
+    s.image_z.push_back(0);
+}
+
+// The row in space: one diagonal, orientations, and a floor that moves.
+inline Snapshot space_row(int frame) {
+    const Snapshot plane = row(frame);
+    Snapshot s = empty_space(plane.time);
+    s.step = plane.step;
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+        const double n = static_cast<double>(i);
+        add_sphere(s, {plane.x[i], plane.y[i], 0.01 * n + 1e-3 * frame}, plane.radius[i],
+                   {plane.vx[i], plane.vy[i], 0.7 - 0.1 * n}, {1 + n, -0.5 * frame, plane.omega[i]},
+                   plane.pressure[i], plane.material[i]);
+        s.orientation.push_back(sandlane::rotation_by({0.1 * n, 0.2 * frame, -0.3}));
+    }
+    const double z = -0.04 + 0.001 * frame;
+    s.walls = {triangle({0, 0, z}, {0.2, 0, z}, {0.2, 0.1, z}),
+               triangle({0, 0, z}, {0.2, 0.1, z}, {0, 0.1, z})};
+    return s;
+}
+
+inline Snapshot periodic_space_row(int frame) {
+    Snapshot s = space_row(frame);
+    s.walls.clear();
+    s.orientation.clear();
+    s.periodic_x = s.periodic_z = true;
+    s.image_z[2] = -1;
+    return s;
+}
+
 // make(0), make(1), ...
 template <class Make> auto frames(const Make& make, int count) {
     std::vector<decltype(make(0))> made;
@@ -129,6 +184,16 @@ inline Snapshot hourglass(double radius, double phase = 0) {
                       12 * x + 40 * y + phase, below ? 900 * (0.11 - y) : 600 * (0.29 - y));
         }
     }
+    return s;
+}
+
+inline sandlane::scene::Scene space_scene() {
+    sandlane::scene::Scene s;
+    s.domain.dimension = 3;
+    s.domain.lower = empty_space().lower;
+    s.domain.upper = empty_space().upper;
+    s.domain.gravity = {0, 0, -9.81};
+    s.materials.resize(2);
     return s;
 }
 

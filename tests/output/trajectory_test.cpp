@@ -97,6 +97,57 @@ TEST(Xyz, EveryNumberReadsBack) {
     EXPECT_EQ(at, lines.size());
 }
 
+TEST(Dump, OfSpace) {
+    const sample::Folder folder("dump-space");
+    const auto lines = written(folder, Trajectory::dump, "trajectory.dump",
+                               {sample::periodic_space_row(2), sample::space_row(1)});
+    const analysis::Snapshot s = sample::periodic_space_row(2), turned = sample::space_row(1);
+    ASSERT_EQ(lines.size(), 2 * (11 + s.size()));
+    EXPECT_EQ(lines[6], "ITEM: BOX BOUNDS pp ff pp");
+    EXPECT_EQ(numbers_of(lines[9]), (std::vector<double>{s.lower.z, s.upper.z}));
+    EXPECT_EQ(lines[10],
+              "ITEM: ATOMS id type x y z vx vy vz radius mass omegax omegay omegaz pressure ix iy iz");
+    EXPECT_EQ(numbers_of(lines[13]),
+              (std::vector<double>{2, s.material[2] + 1.0, s.x[2], s.y[2], s.z[2], s.vx[2], s.vy[2], s.vz[2],
+                                   s.radius[2], s.mass[2], s.omega_x[2], s.omega_y[2], s.omega[2],
+                                   s.pressure[2], 0, 0, -1}));
+    const std::size_t second = 11 + s.size();
+    EXPECT_EQ(lines[second + 10], "ITEM: ATOMS id type x y z vx vy vz radius mass omegax omegay omegaz quatw "
+                                  "quati quatj quatk pressure");
+    const auto grain = numbers_of(lines[second + 11 + 3]);
+    const Quaternion q = turned.orientation[3];
+    EXPECT_EQ(std::vector<double>(grain.begin() + 13, grain.end()),
+              (std::vector<double>{q.w, q.x, q.y, q.z, turned.pressure[3]}));
+}
+
+TEST(Vtp, TheIndexIsNearlyCompleteAndAtLastWhole) {
+    const sample::Folder folder("vtp-index");
+    const auto listed = [&] {
+        std::size_t found = 0;
+        for (const std::string& line : lines_of(folder / "trajectory.pvd"))
+            found += has(line, "part=\"0\"") ? 1 : 0;
+        return found;
+    };
+    std::size_t rewritten = 0, before = 0;
+    {
+        const auto writer = make_trajectory_writer(Trajectory::vtp, folder.path(), sample::scene());
+        for (std::size_t n = 1; n <= 50; ++n) {
+            writer->write(sample::row(static_cast<int>(n)));
+            const std::size_t now = listed();
+            EXPECT_GE(9 * now, 8 * n);
+            rewritten += now != before ? 1 : 0;
+            before = now;
+        }
+        EXPECT_LT(listed(), 50U);
+        (void)writer->bookmark();
+        EXPECT_EQ(listed(), 50U);
+        writer->write(sample::row(51));
+        EXPECT_EQ(listed(), 50U);
+    }
+    EXPECT_EQ(listed(), 51U); // a run that ends with an error leaves it so
+    EXPECT_LT(rewritten, 30U);
+}
+
 TEST(Book, EveryNumberReadsBack) {
     const sample::Folder folder("book");
     const auto frames = sample::frames(sample::walled_row, 2);

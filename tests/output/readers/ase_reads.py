@@ -26,19 +26,21 @@ def grains(frame, key):
 def check_common(atoms, frame):
     close(atoms.positions[:, 0], grains(frame, "x"), "x")
     close(atoms.positions[:, 1], grains(frame, "y"), "y")
-    close(atoms.positions[:, 2], np.zeros(len(atoms)), "z")
-    close(atoms.pbc, frame["periodic"] + [False], "periodic")
-    wide, high = (frame["upper"][k] - frame["lower"][k] for k in (0, 1))
+    close(atoms.positions[:, 2], frame.get("z", np.zeros(len(atoms))), "z")
+    close(atoms.pbc, frame["periodic"], "periodic")
+    axes = frame["dimension"]
+    lengths = np.subtract(frame["upper"], frame["lower"])[:axes]
     # ASE computes the cell from differences of its own: an ulp or two.
-    np.testing.assert_allclose(atoms.cell.lengths()[:2], [wide, high], rtol=1e-15)
+    np.testing.assert_allclose(atoms.cell.lengths()[:axes], lengths, rtol=1e-15)
 
 
 def check_dump(atoms, frame):
     # The order of positions shows the ids: ASE sorts by them and then forgets them.
     check_common(atoms, frame)
-    close(atoms.get_celldisp().ravel()[:2], frame["lower"], "corner of the box")
+    axes = frame["dimension"]
+    close(atoms.get_celldisp().ravel()[:axes], frame["lower"][:axes], "corner of the box")
     # ASE takes the numbers for LAMMPS's "metal" units (A/ps) and converts them: a few roundings.
-    for k, key in enumerate(("vx", "vy")):
+    for k, key in enumerate(("vx", "vy", "vz")[:axes]):
         wanted = np.asarray(grains(frame, key)) * ase.units.Ang / (1e3 * ase.units.fs)
         np.testing.assert_allclose(atoms.get_velocities()[:, k], wanted, rtol=1e-14)
 
@@ -48,17 +50,26 @@ def check_xyz(atoms, frame):
     n = len(frame["id"])
     assert atoms.info["Time"] == frame["time"], atoms.info
     assert atoms.info["Step"] == frame["step"], atoms.info
-    close(atoms.info["Origin"][:2], frame["lower"], "origin")
-    close(atoms.arrays["velo"][:, 0], grains(frame, "vx"), "vx")
-    close(atoms.arrays["velo"][:, 1], grains(frame, "vy"), "vy")
+    axes = frame["dimension"]
+    close(atoms.info["Origin"][:axes], frame["lower"][:axes], "origin")
+    for k, key in enumerate(("vx", "vy", "vz")[:axes]):
+        close(atoms.arrays["velo"][:, k], grains(frame, key), key)
     close(atoms.arrays["radius"], grains(frame, "radius"), "radius")
-    for key in ("id", "omega", "angle", "mass", "pressure", "material"):
+    for key in ("id", "mass", "pressure", "material"):
         close(atoms.arrays[key][:n], frame[key], key)
+    if axes == 2:
+        close(atoms.arrays["omega"][:n], frame["omega"], "omega")
+        close(atoms.arrays["angle"][:n], frame["angle"], "angle")
+    else:
+        close(atoms.arrays["omega"], np.transpose([frame[key] for key in ("omega_x", "omega_y", "omega")]), "omega")
+        assert ("orientation" in atoms.arrays) == bool(frame["orientation"])
+        if frame["orientation"]:
+            close(atoms.arrays["orientation"], np.roll(frame["orientation"], -1, axis=1), "x y z w")
     close(atoms.numbers[:n], [material + 1 for material in frame["material"]], "element stands for material")
 
 
 def main():
-    for case in ("walled", "periodic"):
+    for case in ("walled", "periodic", "space", "periodic-space"):
         folder = pathlib.Path(sys.argv[1]) / case
         expected = json.loads((folder / "expected.json").read_text())
         for name, form, check in (("dump", "lammps-dump-text", check_dump), ("xyz", "extxyz", check_xyz)):

@@ -43,11 +43,19 @@ def check_grains(path, frame):
     n = len(frame["id"])
     assert time == frame["time"] and int(piece.attrib["NumberOfPoints"]) == n
     single = lambda key: np.asarray(frame[key], "f4")
-    for k, key in enumerate(("x", "y")):
+    axes = frame["dimension"]
+    for k, key in enumerate(("x", "y", "z")[:axes]):
         np.testing.assert_array_equal(arrays["Points"][:, k], single(key))
         np.testing.assert_array_equal(arrays["velocity"][:, k], single("v" + key))
-    assert not arrays["Points"][:, 2].any()
-    for key in ("radius", "omega", "angle", "mass", "pressure"):
+    if axes == 2:
+        assert not arrays["Points"][:, 2].any() and not arrays["velocity"][:, 2].any()
+    else:
+        spin = np.transpose([single(key) for key in ("omega_x", "omega_y", "omega")])
+        np.testing.assert_array_equal(arrays["omega"], spin)
+        assert ("orientation" in arrays) == bool(frame["orientation"])
+        if frame["orientation"]:
+            np.testing.assert_array_equal(arrays["orientation"], single("orientation"))
+    for key in ("radius", "mass", "pressure") + (("omega", "angle") if axes == 2 else ()):
         np.testing.assert_array_equal(arrays[key], single(key), err_msg=key)
     for key in ("id", "material"):
         np.testing.assert_array_equal(arrays[key], frame[key], err_msg=key)
@@ -55,7 +63,19 @@ def check_grains(path, frame):
     np.testing.assert_array_equal(arrays["offsets"], np.arange(1, n + 1))
 
 
+def check_triangles(path, frame):
+    piece, arrays, _ = read_vtp(path)
+    count = len(frame["triangles"])
+    assert int(piece.attrib["NumberOfPolys"]) == count and int(piece.attrib["NumberOfLines"]) == 0
+    np.testing.assert_array_equal(arrays["offsets"], 3 * np.arange(1, count + 1))
+    corners = arrays["Points"][arrays["connectivity"]].reshape(count, 3, 3)
+    np.testing.assert_array_equal(corners, np.asarray(frame["triangles"], "f4"))
+
+
 def check_walls(path, frame):
+    if frame["dimension"] == 3:
+        check_triangles(path, frame)
+        return
     piece, arrays, _ = read_vtp(path)
     assert int(piece.attrib["NumberOfLines"]) == frame["walls"] == len(arrays["offsets"])
     assert arrays["offsets"][-1] == len(arrays["connectivity"])
@@ -69,7 +89,7 @@ def check_walls(path, frame):
 
 
 def main():
-    for case in ("walled", "periodic"):
+    for case in ("walled", "periodic", "space", "periodic-space"):
         folder = pathlib.Path(sys.argv[1]) / case
         expected = json.loads((folder / "expected.json").read_text())
         sets = [entry.attrib for entry in xml.parse(folder / "trajectory.pvd").getroot().iter("DataSet")]

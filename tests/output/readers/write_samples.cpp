@@ -36,10 +36,11 @@ std::string discs(const analysis::Snapshot& s) {
 }
 
 std::string expected(const analysis::Snapshot& s) {
-    std::string text = fmt::format("{{\"time\": {}, \"step\": {}, \"lower\": [{}, {}], \"upper\": [{}, {}], "
-                                   "\"periodic\": [{}, {}], \"discs\": {}, \"walls\": {}",
-                                   s.time, s.step, s.lower.x, s.lower.y, s.upper.x, s.upper.y, s.periodic_x,
-                                   s.periodic_y, discs(s), s.walls.size());
+    std::string text =
+        fmt::format("{{\"time\": {}, \"step\": {}, \"dimension\": {}, \"lower\": [{}, {}, {}], "
+                    "\"upper\": [{}, {}, {}], \"periodic\": [{}, {}, {}], \"discs\": {}, \"walls\": {}",
+                    s.time, s.step, s.dimension, s.lower.x, s.lower.y, s.lower.z, s.upper.x, s.upper.y,
+                    s.upper.z, s.periodic_x, s.periodic_y, s.periodic_z, discs(s), s.walls.size());
     const auto add = [&](const char* name, const auto& values) {
         text += fmt::format(", \"{}\": {}", name, array(values));
     };
@@ -54,13 +55,30 @@ std::string expected(const analysis::Snapshot& s) {
     add("mass", s.mass);
     add("pressure", s.pressure);
     add("material", s.material);
+    if (s.dimension == 2) return text + "}";
+    add("z", s.z);
+    add("vz", s.vz);
+    add("omega_x", s.omega_x);
+    add("omega_y", s.omega_y);
+    std::vector<std::string> turned, triangles;
+    for (const Quaternion& q : s.orientation)
+        turned.push_back(fmt::format("[{}, {}, {}, {}]", q.w, q.x, q.y, q.z));
+    const auto corner = [](Vec p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); };
+    for (const analysis::WallShape& w : s.walls)
+        triangles.push_back(fmt::format("[{}, {}, {}]", corner(w.a), corner(w.b), corner(w.c)));
+    add("orientation", turned);
+    add("triangles", triangles);
     return text + "}";
 }
 
 void write_trajectories(const fs::path& folder, const std::vector<analysis::Snapshot>& frames) {
     fs::create_directories(folder);
     for (const auto kind : {scene::Trajectory::dump, scene::Trajectory::xyz, scene::Trajectory::vtp}) {
-        const auto writer = output::make_trajectory_writer(kind, folder, sample::scene());
+        scene::Scene scene = sample::scene();
+        scene.domain.dimension = frames.at(0).dimension;
+        scene.walls.resize(1);
+        if (frames.at(0).dimension == 3) scene.walls[0].motion = "lift";
+        const auto writer = output::make_trajectory_writer(kind, folder, scene);
         for (const analysis::Snapshot& frame : frames) writer->write(frame);
     }
     std::vector<std::string> all(frames.size());
@@ -151,6 +169,8 @@ int main(int argc, char** argv) {
         fs::remove_all(folder);
         write_trajectories(folder / "walled", sample::frames(sample::walled_row, 3));
         write_trajectories(folder / "periodic", sample::frames(sample::periodic_row, 3));
+        write_trajectories(folder / "space", sample::frames(sample::space_row, 3));
+        write_trajectories(folder / "periodic-space", sample::frames(sample::periodic_space_row, 3));
         write_reports(folder / "reports");
     } catch (const std::exception& e) {
         fmt::print(stderr, "write_samples: {}\n", e.what());
