@@ -303,7 +303,8 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     // A function of the scene alone. Lists are measured to be the fastest from a few grains on, at any
     // density; `tools/bench kernels` shows it.
     const std::size_t few = 32;
-    const bool small = needs.grains + needs.poured <= few;
+    const bool sheared = scene.domain.shear_rate != 0; // only lists know the seam
+    const bool small = needs.grains + needs.poured <= few && !sheared;
     plan.neighbours = small ? NeighbourMethod::brute_force : NeighbourMethod::verlet;
     plan.chosen.push_back(small ? fmt::format("neighbours: brute force, {} grains or fewer", few)
                                 : "neighbours: Verlet lists, the fastest for more than a few grains");

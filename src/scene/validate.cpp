@@ -61,6 +61,25 @@ struct Validator {
                    text(scene.domain.upper), text(scene.domain.lower), spatial ? "all" : "both");
     }
 
+    void check_shear() const {
+        const Domain& d = scene.domain;
+        if (d.shear_rate == 0) return;
+        if (!std::isfinite(d.shear_rate)) reject("domain.shear_rate: {} is no number", d.shear_rate);
+        if (!d.periodic[0] || !d.periodic[1])
+            reject("domain.shear_rate: {} needs periodic = [\"x\", \"y\"]: the flow is along x and its images "
+                   "stand beyond the y sides",
+                   d.shear_rate);
+        if (d.gravity.x != 0 || d.gravity.y != 0)
+            reject("domain.shear_rate: {} and gravity [{}]: a sheared cell falls along x and y; leave gravity out",
+                   d.shear_rate, text(d.gravity));
+        const NeighbourMethod m = scene.md.neighbours;
+        if (m != NeighbourMethod::automatic && m != NeighbourMethod::verlet)
+            reject("md.neighbours: \"{}\" cannot follow domain.shear_rate; use \"auto\" or \"verlet\"",
+                   neighbour_choices()[static_cast<std::size_t>(m)]);
+        for (std::size_t n = 0; n < scene.walls.size(); ++n)
+            reject("walls[{}]: a cell with domain.shear_rate has no walls", n);
+    }
+
     // Choices that mean something in the plane only.
     void check_method() const {
         if (!spatial) return;
@@ -338,6 +357,7 @@ void validate(const Scene& scene, const std::string& file) {
     const Validator v{scene, file};
     v.check_domain();
     v.check_method();
+    v.check_shear();
     v.check_materials();
     v.check_sinks();
     for (std::size_t n = 0; n < scene.grains.size(); ++n)
