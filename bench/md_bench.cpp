@@ -2,7 +2,7 @@
 // number of grains x instruction set x threads, each with the roofline of its case (step_cost.hpp).
 // --rounds=R registers every case R times in turn, A B A B, so that slow drifts of the machine hit all cases
 // alike.
-#include "agitated_discs.hpp"
+#include "agitated.hpp"
 #include "core/progress.hpp"
 #include "step_cost.hpp"
 
@@ -37,9 +37,9 @@ std::string law_name(const bench::Setup& s) {
 
 std::string name_of(const Case& c) {
     static const char* methods[] = {"auto", "brute", "cells", "lattice", "half", "verlet"};
-    return fmt::format("md/{}/{}/phi={}/N={}/{}/threads={}", methods[static_cast<int>(c.setup.neighbours)],
-                       law_name(c.setup), c.setup.packing_fraction, c.setup.grains, simd::isa_name(c.isa),
-                       c.threads);
+    return fmt::format("{}/{}/{}/phi={}/N={}/{}/threads={}", c.setup.dimension == 3 ? "md3" : "md",
+                       methods[static_cast<int>(c.setup.neighbours)], law_name(c.setup),
+                       c.setup.packing_fraction, c.setup.grains, simd::isa_name(c.isa), c.threads);
 }
 
 // The state that all methods, instruction sets and thread counts of a setup start from.
@@ -47,7 +47,8 @@ const std::vector<scene::GrainState>& agitated(bench::Setup setup) {
     static std::map<std::string, std::vector<scene::GrainState>> known;
     constexpr std::size_t large = 300000; // grains: of these only the last state is kept
     setup.integrator = scene::Integrator::gear5;
-    const std::string key = fmt::format("{}/{}/{}", law_name(setup), setup.packing_fraction, setup.grains);
+    const std::string key =
+        fmt::format("{}/{}/{}/{}", setup.dimension, law_name(setup), setup.packing_fraction, setup.grains);
     const auto found = known.find(key);
     if (found != known.end()) return found->second;
     if (setup.grains > large)
@@ -55,8 +56,7 @@ const std::vector<scene::GrainState>& agitated(bench::Setup setup) {
     setup.neighbours = NeighbourMethod::automatic;
     const auto start = bench::agitated_grains(setup, bench::agitated_scene(setup));
     md::Simulation simulation = bench::make(setup, start, simd::available_isas().back(), 1);
-    const bool at_rest = setup.packing_fraction > bench::jammed;
-    simulation.run(setup.grains > large ? 200 : at_rest ? 3000 : 1000);
+    simulation.run(setup.grains > large ? 200 : bench::at_rest(setup) ? 3000 : 1000);
     return known.emplace(key, bench::later_grains(simulation)).first->second;
 }
 
@@ -122,12 +122,30 @@ void add_all() {
     for (const std::size_t n : {1000U, 10000U, 100000U, 1000000U})
         for (const double phi : {0.2, 0.5, 0.82, 0.88})
             for (const auto normal : {scene::NormalLaw::linear_dashpot, scene::NormalLaw::viscoelastic})
-                for (const bool friction : {true, false}) add_methods({n, phi, normal, friction});
+                for (const bool friction : {true, false}) add_methods({n, phi, 2, normal, friction});
+}
+
+// Spheres: a packing at rest and a gas, by lists.
+void add_space() {
+    for (const std::size_t n : {4096U, 32768U, 262144U, 1000000U})
+        for (const double phi : {0.3, 0.64})
+            for (const auto normal : {scene::NormalLaw::linear_dashpot, scene::NormalLaw::viscoelastic})
+                for (const int friction : {0, 1, 2})
+                    for (const auto integrator :
+                         {scene::Integrator::gear5, scene::Integrator::velocity_verlet})
+                        for (const simd::Isa isa : simd::available_isas())
+                            for (int threads = 1; threads <= std::min(2, allowed_cpus()); ++threads) {
+                                bench::Setup setup{n, phi, 3, normal, friction > 0};
+                                setup.springs = friction == 2;
+                                setup.neighbours = NeighbourMethod::verlet;
+                                setup.integrator = integrator;
+                                add({setup, isa, threads});
+                            }
 }
 
 // What `tools/bench skips` compares besides.
 void add_skips() {
-    bench::Setup base{10000, 0.82, scene::NormalLaw::viscoelastic, true};
+    bench::Setup base{10000, 0.82, 2, scene::NormalLaw::viscoelastic, true};
     for (const auto method : {NeighbourMethod::lattice_half, NeighbourMethod::verlet}) {
         base.neighbours = method;
         bench::Setup equal = base, two = base, springs = base;
@@ -159,6 +177,7 @@ int main(int argc, char** argv) {
     const int rounds = take_rounds(argc, argv);
     for (int round = 0; round < rounds; ++round) {
         add_all();
+        add_space();
         add_skips();
     }
     benchmark::Initialize(&argc, argv);

@@ -24,15 +24,16 @@ inline StepCost operator+(const StepCost& a, const StepCost& b) {
 
 // The integrator (motion.ipp).
 inline StepCost motion_cost(const md::Plan& plan) {
-    const double order = plan.order, dofs = plan.spin ? 3 : 2;
+    const double order = plan.order, dofs = simd::degrees_of_freedom(plan.dimension, md::turns(plan));
+    const double spins = plan.dimension == 3 && md::turns(plan) ? simd::spin_fields : 0;
     StepCost c;
-    c.bytes = 2 * 8 * order * dofs                  // state, read and written
-              + 8 * simd::record_fields             // record, written
-              + 8 * (plan.spin ? 4 : 1);            // 1/m; R/J, R, 1/R
+    c.bytes = 2 * 8 * (order - 2) * dofs            // state, read and written
+              + 8 * (simd::record_fields + spins)   // records, written; read with the forces
+              + 8;                                  // 1/m
     const double predict = order * (order - 1) / 2; // gear_predict
     const double correct = 4 + 2 * order;           // acceleration, difference, gear_correct
     const double record = 2 + 4 + 4 + 4;            // velocities, largest speed, inside, wrap
-    c.arithmetic = dofs * (predict + correct) + record + (plan.spin ? 2 : 0);
+    c.arithmetic = dofs * (predict + correct) + record + (md::turns(plan) ? 2 : 0);
     return c;
 }
 
@@ -56,11 +57,11 @@ inline StepCost law_cost(const md::Simulation& simulation, double evaluations, d
 // What lattice and cells need and lists do not: forces kept in memory (read and written by pairs and by
 // motion), and the site or cell of each grain, two each of -, *, floor, min and of the position in the site.
 inline StepCost placed_cost() {
-    return {4 * 8 * simd::force_fields, 14, 0, 0, 0};
+    return {4 * 8 * 4, 14, 0, 0, 0};
 }
 
 // Per site, in single precision (lattice.ipp). The scalar reference looks at the owners of sites and computes
-// in double (reference.cpp).
+// in double (src/md/reference).
 inline StepCost lattice_cost(const md::Simulation& simulation, double contacts) {
     const md::Plan& plan = simulation.plan();
     const bool half = plan.neighbours == scene::NeighbourMethod::lattice_half;
@@ -79,10 +80,10 @@ inline StepCost lattice_cost(const md::Simulation& simulation, double contacts) 
 
 // Per candidate in the nine cells around a grain (cells.ipp, link_cells.cpp).
 inline StepCost cells_cost(const md::Simulation& simulation, double contacts) {
-    const auto& radius = simulation.state().radius;
-    const double edge = 2 * *std::max_element(radius.begin(), radius.end());
+    const double edge = 2 * simulation.state().largest_radius();
     const Vec size = simulation.plan().upper - simulation.plan().lower;
-    const double candidates = 9 * edge * edge * static_cast<double>(radius.size()) / (size.x * size.y);
+    const double candidates =
+        9 * edge * edge * static_cast<double>(simulation.state().size()) / (size.x * size.y);
     StepCost c = placed_cost();
     c.bytes += 2 * (3 * 8 + 4) + 2 * 4 + 3 * 4; // sorted columns, written and read; cell; counting sort
     c.arithmetic += candidates * (2 + 12 + 1 + 5 + 1);

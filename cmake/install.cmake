@@ -9,7 +9,7 @@ install(TARGETS sandlane_lib EXPORT sandlane-targets)
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sandlane
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN app EXCLUDE PATTERN page EXCLUDE)
 # The one door of simd/; the wrapper over xsimd and the kernels stay at home.
-install(FILES simd/tables.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sandlane/simd)
+install(FILES simd/tables.hpp simd/records.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sandlane/simd)
 install(DIRECTORY data/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/sandlane)
 install(FILES docs/sandlane.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

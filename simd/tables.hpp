@@ -1,6 +1,6 @@
 // The single door between src/ and simd/: plain views of columns, and one table of kernel functions per
 // instruction set. The table named `scalar` is the reference: simple loops written separately in
-// src/md/reference.cpp.
+// src/md/reference.
 #pragma once
 
 #include "laws/count.hpp"
@@ -16,15 +16,15 @@ namespace sandlane::simd {
 
 enum class Isa { scalar, sse4_2, avx2, avx512 };
 
-// What a pair kernel reads and writes. Periods of open sides: period 0, half period infinite.
+// What a pair kernel reads and writes. Open sides: period 0, half period infinite.
 struct PairView {
-    const double* records;
+    const double *records, *spins; // spins: 3D with rotation, else null
     const std::int32_t* material;
     double* force;
-    double period_x, period_y, half_x, half_y;
+    double period[3], half[3];
     const double* coefficients; // laws::PairCoefficients [materials][materials]
     std::int32_t materials;
-    double dt; // s: between two evaluations of a contact that remembers
+    double dt, inverse_dt; // s: between two evaluations of a contact that remembers
 };
 
 // Which partners of a pair get the force.
@@ -73,10 +73,11 @@ inline constexpr std::int32_t tile_grains = 1024; // fixed, so that results do n
 struct TileList {
     const std::int32_t *i, *j; // storage indices, begin <= i < end
     std::int32_t count, begin, end;
-    // Of laws that remember: number f of pair n stands at memory[f * stride + n]; a pair that does not touch
-    // holds laws::no_contact.
+    bool images; // a pair may be nearest across a periodic side
+    // Of laws that remember: the numbers of pair n stand at memory[n * memory_row], and bit n of `touched`
+    // says that they are those of a contact that lasts.
     double* memory;
-    std::ptrdiff_t stride;
+    std::uint8_t* touched;
 };
 // Adds the forces of the listed pairs that touch to the grains of the tile, in list order; `force` is the
 // accumulator of grain `begin`, with a row behind the last of a whole tile that takes what is not wanted.
@@ -89,72 +90,83 @@ using NearKernel = std::int32_t (*)(const PairView&, const std::int32_t* i, cons
                                     std::int32_t count, double skin, std::int32_t* near_i,
                                     std::int32_t* near_j, std::int32_t* position);
 
-// Link cells: particles counting-sorted by cell. One cell in a direction means "all particles" in that
-// direction.
+// Link cells: particles counting-sorted by cell, columns innermost. One cell in a direction means "all
+// particles" in that direction; a plane has one layer.
 struct CellView {
-    const double *x, *y, *radius;
+    const double *position[3], *radius;
     const std::int32_t* owner;
-    const std::int32_t* start; // cells + 1 entries, row-major
-    std::int32_t columns, rows;
-    bool periodic_x, periodic_y;
+    const std::int32_t* start; // cells + 1 entries
+    std::int32_t count[3];     // columns, rows, layers
+    bool periodic[3];
 };
 // Grains of `cell` and those around it whose gap to the grain at sorted position `self` is below `skin`:
 // storage indices in the order of the cells. `out` has room for all grains of these cells and eight more.
 using CandidateKernel = std::int32_t (*)(const CellView&, const PairView&, std::int32_t cell,
                                          std::int32_t self, double skin, std::int32_t* out);
+// Rows of all layers are numbered through: row + rows * layer.
 using CellKernel = SweepResult (*)(const CellView&, const PairView&, PairKernel, std::int32_t row_begin,
                                    std::int32_t row_end);
 
-// State of the integrator: blocks of eight particles, gear[block][dof * order + k][lane], dof = x, y(, phi).
+// State of the integrator: values k = 0 and 1 of the Nordsieck vector are the records', the others lie in
+// blocks of eight particles, gear[block][dof * (order - 2) + k - 2][lane], dof = x, y, (z,) rotation. The new
+// state may go to other records than the old one comes from.
 struct MotionView {
     double* gear;
-    double* records;
+    const double *records, *spins;
+    double *new_records, *new_spins;
     double* force; // of the first particle of the range
     const double* inverse_mass;
-    const double* spin_factor; // R/J, angular acceleration per sum of f_t
-    const double* radius;
-    const double* inverse_radius;
-    std::int32_t *image_x, *image_y;
-    std::int64_t count;
-    double dt, half_dt2, inverse_dt;
-    double gravity_x, gravity_y, gravity_phi;
-    double lower_x, lower_y, upper_x, upper_y;
-    double period_x, period_y; // 0: open
+    double inverse_inertia; // 1/c of J = c m R^2
+    std::int32_t* image[3];
+    double half_dt2;
+    double gravity[3], gravity_spin; // 2D: G_phi
+    double lower[3], upper[3];
+    double period[3]; // 0: open
 };
 struct MotionResult {
-    double largest_speed2 = 0; // (m/s)^2 of the predicted velocities
+    double largest_shift2 = 0; // m^2, of the predicted displacements per step
     std::int64_t outside = 0;  // particles outside the domain after wrapping, or NaN
 };
-// correct: forces -> state at t. predict: state at t -> state and records at t + dt. advance: both, in one
-// pass.
+// correct: forces -> state at t. predict: state at t -> state at t + dt. advance: both, in one pass.
 using MotionKernel = MotionResult (*)(const MotionView&, std::int64_t begin, std::int64_t end);
 
 // Site (or cell) of each particle, computed from its record; conflict free because a site holds one centre.
 struct BinView {
     const double* records;
     std::int32_t* site;
-    double lower_x, lower_y, dx, dy;
-    std::int32_t columns, rows;
-    std::ptrdiff_t row_stride, origin;
+    double lower[3], edge[3];
+    std::int32_t count[3];
+    std::ptrdiff_t stride[3], origin; // of columns, rows, layers
     // For the lattice, else null: position relative to the centre of the site [m], and whether the site has
     // an image in the halo (closer than `reach` to an edge).
     float *relative_x, *relative_y;
-    std::uint8_t* edge;
+    std::uint8_t* edge_site;
     std::int32_t reach;
 };
 using BinKernel = void (*)(const BinView&, std::int64_t begin, std::int64_t end);
 
-struct MdKernels {
-    // [normal law][tangential law][many materials]; null for laws that remember, which need lists
-    PairKernel pair[laws::normal_laws][laws::tangential_laws][2];
-    LatticeKernel lattice_full[2]; // [many radii]
-    LatticeKernel lattice_half[2];
+// Kernels of the plane or of space.
+struct DimensionKernels {
+    // [couples][many materials]; null for laws that remember, which need lists, and for laws that the dimension
+    // does not have
+    struct Law {
+        PairKernel pair[2][2];
+        TileKernel tile[2][2];
+    };
+    Law law[laws::normal_laws][laws::tangential_laws];
     CellKernel cells;
     CandidateKernel candidates;
     NearKernel near_pairs;
-    TileKernel tile[laws::normal_laws][laws::tangential_laws][2];
-    MotionKernel predict[4][2], correct[4][2], advance[4][2]; // [order - 3][spin]
+    MotionKernel predict[4][rotations], correct[4][rotations], advance[4][rotations]; // [order - 3]
     BinKernel bin;
+};
+
+struct MdKernels {
+    DimensionKernels plane, space;
+    LatticeKernel lattice_full[2]; // [many radii]; plane only
+    LatticeKernel lattice_half[2];
+
+    [[nodiscard]] const DimensionKernels& in(int dimension) const { return dimension == 3 ? space : plane; }
 };
 
 [[nodiscard]] const MdKernels& md_kernels(Isa isa);

@@ -3,6 +3,7 @@
 // compressed to pairs and evaluated packed.
 #pragma once
 
+#include "simd/groups.hpp"
 #include "simd/md/pairs.ipp"
 
 namespace sandlane::simd {

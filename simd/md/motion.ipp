@@ -4,18 +4,10 @@
 
 #include "motion/gear.hpp"
 #include "simd/lanes.hpp"
+#include "simd/rows.hpp"
 #include "simd/tables.hpp"
 
 namespace sandlane::simd {
-
-template <class Arch, int order>
-SANDLANE_INLINE void load_dof(const double* gear, int dof, Block<Arch> (&x)[order]) {
-    for (int k = 0; k < order; ++k) x[k] = load<Arch>(gear + (dof * order + k) * width);
-}
-template <class Arch, int order>
-SANDLANE_INLINE void store_dof(double* gear, int dof, const Block<Arch> (&x)[order]) {
-    for (int k = 0; k < order; ++k) store(gear + (dof * order + k) * width, x[k]);
-}
 
 // Wraps one coordinate into [lower, upper) and counts the image. Rounding of the sum may give exactly upper:
 // that is lower.
@@ -33,102 +25,132 @@ SANDLANE_INLINE Block<Arch> wrap(const Block<Arch>& x, double lower, double uppe
     return select(moved >= R(upper), select(below, R(lower), moved), moved);
 }
 
-template <class Arch, int order, bool spin, bool do_correct, bool do_predict>
+// One degree of freedom of eight particles: `value` and `shift` are k = 0 and 1, the rest stands in `gear`.
+template <class Arch, int order, bool do_correct, bool do_predict>
+SANDLANE_INLINE void step_value(double* gear, Block<Arch>& value, Block<Arch>& shift,
+                                const Block<Arch>& acceleration, const Block<Arch>& half_dt2) {
+    Block<Arch> x[order];
+    x[0] = value;
+    x[1] = shift;
+    for (int k = 2; k < order; ++k) x[k] = load<Arch>(gear + (k - 2) * width);
+    if constexpr (do_correct) motion::gear_correct(x, acceleration, half_dt2);
+    if constexpr (do_predict) motion::gear_predict(x);
+    value = x[0];
+    shift = x[1];
+    for (int k = 2; k < order; ++k) store(gear + (k - 2) * width, x[k]);
+}
+
+// Forces of eight particles, which are taken: the accumulators become zero.
+template <class Arch, int fields>
+SANDLANE_INLINE void take_forces(double* force, Block<Arch> (&row)[fields]) {
+    Rows<Arch, fields>::load(force, row);
+    for (int f = 0; f < fields; ++f) store(force + f * width, Block<Arch>(0.0));
+}
+
+// Lanes below `end`; the others keep zero.
+template <class Arch> SANDLANE_INLINE Block<Arch> only(unsigned real, const Block<Arch>& value) {
+    if (real == 0xffu) return value;
+    double lanes[width];
+    store(lanes, value);
+    for (int l = 0; l < width; ++l) lanes[l] = (real >> l & 1u) != 0 ? lanes[l] : 0.0;
+    return load<Arch>(lanes);
+}
+
+// Wraps the predicted positions of eight particles and looks at them and at their speed.
+template <class Arch, int dimension>
+SANDLANE_INLINE void settle(const MotionView& view, std::int64_t first, unsigned real,
+                            Block<Arch> (&record)[record_fields], Block<Arch>& most, std::int64_t& outside) {
+    using R = Block<Arch>;
+    unsigned inside = 0xffu;
+    R shift2(0.0);
+    for (int d = 0; d < dimension; ++d) {
+        if (view.period[d] > 0)
+            record[d] = wrap(record[d], view.lower[d], view.upper[d], view.period[d], view.image[d] + first);
+        inside &= bits((record[d] >= R(view.lower[d])) & (record[d] < R(view.upper[d])));
+        const R shift = record[dimension + d];
+        shift2 = d == 0 ? shift * shift : shift2 + shift * shift;
+    }
+    outside += __builtin_popcount(real & ~inside);
+    most = max(only(real, shift2), most);
+}
+
+template <class Arch, int dimension, int order, Rotation rotation, bool do_correct, bool do_predict>
 MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t end) {
     using R = Block<Arch>;
-    constexpr int dofs = spin ? 3 : 2;
-    const R half_dt2(view.half_dt2), inverse_dt(view.inverse_dt);
+    using Fields = Record<dimension>;
+    constexpr bool turns = rotation != Rotation::none, couples = rotation == Rotation::couples;
+    constexpr int dofs = degrees_of_freedom(dimension, turns), fields = force_stride(dimension, rotation);
+    const auto step = [&](double* gear, int dof, R& value, R& shift, const R& acceleration) {
+        step_value<Arch, order, do_correct, do_predict>(gear + dof * (order - 2) * width, value, shift,
+                                                        acceleration, R(view.half_dt2));
+    };
     R most(0.0);
     std::int64_t outside = 0;
     for (std::int64_t first = begin; first < end; first += width) {
-        double* gear = view.gear + first * dofs * order;
-        R x[order], y[order], phi[order];
-        load_dof<Arch, order>(gear, 0, x);
-        load_dof<Arch, order>(gear, 1, y);
-        if constexpr (spin) load_dof<Arch, order>(gear, 2, phi);
+        double* gear = view.gear + first * dofs * (order - 2);
+        R record[record_fields], force[fields], inverse_mass(0.0);
+        Rows<Arch, record_fields>::load(view.records + first * record_fields, record);
+        for (int f = 0; f < fields; ++f) force[f] = R(0.0);
         if constexpr (do_correct) {
-            R fx, fy, ft;
-            double* force = view.force + (first - begin) * force_fields;
-            LoadRows<Arch>::apply(force, fx, fy, ft);
-            for (int row = 0; row < force_fields; ++row) store(force + row * width, R(0.0));
-            const R inverse_mass = load<Arch>(view.inverse_mass + first);
-            motion::gear_correct(x, fx * inverse_mass + R(view.gravity_x), half_dt2);
-            motion::gear_correct(y, fy * inverse_mass + R(view.gravity_y), half_dt2);
-            if constexpr (spin)
-                motion::gear_correct(phi, ft * load<Arch>(view.spin_factor + first) + R(view.gravity_phi),
-                                     half_dt2);
+            take_forces<Arch, fields>(view.force + (first - begin) * fields, force);
+            inverse_mass = load<Arch>(view.inverse_mass + first);
         }
-        if constexpr (do_predict) {
-            motion::gear_predict(x);
-            motion::gear_predict(y);
-            if constexpr (spin) motion::gear_predict(phi);
-            if (view.period_x > 0)
-                x[0] = wrap(x[0], view.lower_x, view.upper_x, view.period_x, view.image_x + first);
-            if (view.period_y > 0)
-                y[0] = wrap(y[0], view.lower_y, view.upper_y, view.period_y, view.image_y + first);
-            const unsigned real = end - first >= width ? 0xffu : (1u << (end - first)) - 1u;
-            const unsigned inside = bits((x[0] >= R(view.lower_x)) & (x[0] < R(view.upper_x)) &
-                                         (y[0] >= R(view.lower_y)) & (y[0] < R(view.upper_y)));
-            outside += __builtin_popcount(real & ~inside);
-            const R vx = x[1] * inverse_dt, vy = y[1] * inverse_dt;
-            const R speed2 = vx * vx + vy * vy;
-            if (real == 0xffu) {
-                most = max(speed2, most);
-            } else {
-                double lanes[width];
-                store(lanes, speed2);
-                for (int l = 0; l < width; ++l) lanes[l] = (real >> l & 1u) != 0 ? lanes[l] : 0.0;
-                most = max(load<Arch>(lanes), most);
-            }
-            double* record = view.records + first * record_fields;
-            StoreRows<Arch>::apply(x[0], y[0], vx, vy, record, record_fields);
-            if constexpr (spin) {
-                const R radius = load<Arch>(view.radius + first);
-                StoreRows<Arch>::apply(radius * (phi[1] * inverse_dt), radius,
-                                       load<Arch>(view.inverse_radius + first), R(0.0), record + 4,
-                                       record_fields);
-            }
+        for (int d = 0; d < dimension; ++d)
+            step(gear, d, record[d], record[dimension + d], force[d] * inverse_mass + R(view.gravity[d]));
+        const R of_torque = R(view.inverse_inertia) * inverse_mass; // R^2/J
+        if constexpr (turns && dimension == 2) {
+            R torque = force[2];
+            if constexpr (couples) torque = torque + force[3] * record[Fields::inverse_radius];
+            step(gear, 2, record[Fields::angle], record[Fields::spin],
+                 torque * of_torque + record[Fields::radius] * R(view.gravity_spin));
         }
-        store_dof<Arch, order>(gear, 0, x);
-        store_dof<Arch, order>(gear, 1, y);
-        if constexpr (spin) store_dof<Arch, order>(gear, 2, phi);
+        if constexpr (turns && dimension == 3) {
+            R spin[spin_fields];
+            Rows<Arch, spin_fields>::load(view.spins + first * spin_fields, spin);
+            for (int d = 0; d < 3; ++d) {
+                R no_angle(0.0), torque = force[4 + d];
+                if constexpr (couples) torque = torque + force[8 + d] * record[Fields::inverse_radius];
+                step(gear, 3 + d, no_angle, spin[d], torque * (of_torque * record[Fields::inverse_radius]));
+            }
+            Rows<Arch, spin_fields>::store(spin, view.new_spins + first * spin_fields);
+        }
+        const unsigned real = end - first >= width ? 0xffu : (1u << (end - first)) - 1u;
+        if constexpr (do_predict) settle<Arch, dimension>(view, first, real, record, most, outside);
+        Rows<Arch, record_fields>::store(record, view.new_records + first * record_fields);
     }
     return {largest(most), outside};
 }
 
-// Lattice site of each particle (floor, and the quotient rounded up is clamped; a corrected position may lie
-// below the lower side too).
-template <class Arch> void bin_sites(const BinView& view, std::int64_t begin, std::int64_t end) {
+// Lattice site or cell of each particle (floor, and the quotient rounded up is clamped; a corrected position
+// may lie below the lower side too).
+template <class Arch, int dimension>
+void bin_sites(const BinView& view, std::int64_t begin, std::int64_t end) {
     using R = Block<Arch>;
-    const R half(0.5), inverse_dx(1.0 / view.dx), inverse_dy(1.0 / view.dy);
     for (std::int64_t first = begin; first < end; first += width) {
-        double xs[width], ys[width], us[width], vs[width];
-        for (int l = 0; l < width; ++l) {
-            xs[l] = view.records[(first + l) * record_fields];
-            ys[l] = view.records[(first + l) * record_fields + 1];
+        double place[dimension][width], offset[dimension][width];
+        for (int d = 0; d < dimension; ++d) {
+            for (int l = 0; l < width; ++l) place[d][l] = view.records[(first + l) * record_fields + d];
+            const R x = load<Arch>(place[d]) - R(view.lower[d]);
+            const R at = max(min(floor(x * R(1.0 / view.edge[d])), R(view.count[d] - 1)), R(0.0));
+            store(place[d], at);
+            store(offset[d], x - (at + R(0.5)) * R(view.edge[d]));
         }
-        const R x = load<Arch>(xs) - R(view.lower_x), y = load<Arch>(ys) - R(view.lower_y);
-        const R column = max(min(floor(x * inverse_dx), R(view.columns - 1)), R(0.0));
-        const R row = max(min(floor(y * inverse_dy), R(view.rows - 1)), R(0.0));
-        store(xs, column);
-        store(ys, row);
         const int size = end - first < width ? static_cast<int>(end - first) : width;
-        for (int l = 0; l < size; ++l)
-            view.site[first + l] =
-                static_cast<std::int32_t>(view.origin) +
-                static_cast<std::int32_t>(ys[l]) * static_cast<std::int32_t>(view.row_stride) +
-                static_cast<std::int32_t>(xs[l]);
-        if (view.relative_x == nullptr) continue;
-        store(us, x - (column + half) * R(view.dx));
-        store(vs, y - (row + half) * R(view.dy));
         for (int l = 0; l < size; ++l) {
-            view.relative_x[first + l] = static_cast<float>(us[l]);
-            view.relative_y[first + l] = static_cast<float>(vs[l]);
-            const auto c = static_cast<std::uint32_t>(static_cast<std::int32_t>(xs[l]) - view.reach);
-            const auto r = static_cast<std::uint32_t>(static_cast<std::int32_t>(ys[l]) - view.reach);
-            const bool interior = c < static_cast<std::uint32_t>(view.columns - 2 * view.reach) &&
-                                  r < static_cast<std::uint32_t>(view.rows - 2 * view.reach);
-            view.edge[first + l] = interior ? 0 : 1;
+            std::ptrdiff_t site = view.origin;
+            for (int d = 0; d < dimension; ++d)
+                site += static_cast<std::int32_t>(place[d][l]) * view.stride[d];
+            view.site[first + l] = static_cast<std::int32_t>(site);
+        }
+        if (view.relative_x == nullptr) continue;
+        for (int l = 0; l < size; ++l) {
+            view.relative_x[first + l] = static_cast<float>(offset[0][l]);
+            view.relative_y[first + l] = static_cast<float>(offset[1][l]);
+            const auto c = static_cast<std::uint32_t>(static_cast<std::int32_t>(place[0][l]) - view.reach);
+            const auto r = static_cast<std::uint32_t>(static_cast<std::int32_t>(place[1][l]) - view.reach);
+            const bool interior = c < static_cast<std::uint32_t>(view.count[0] - 2 * view.reach) &&
+                                  r < static_cast<std::uint32_t>(view.count[1] - 2 * view.reach);
+            view.edge_site[first + l] = interior ? 0 : 1;
         }
     }
 }

@@ -4,7 +4,9 @@
 #pragma once
 
 #include "laws/contact.hpp"
+#include "simd/compress.hpp"
 #include "simd/lanes.hpp"
+#include "simd/rows.hpp"
 #include "simd/tables.hpp"
 
 namespace sandlane::simd {
@@ -18,73 +20,146 @@ SANDLANE_INLINE Block<Arch> minimum_image(const Block<Arch>& d, double half, dou
     return select(low > Block<Arch>(half), low - Block<Arch>(period), low);
 }
 
+// The first fields of combined records become the vector to the nearest image; returns its square.
+template <class Arch, int dimension, bool images = true>
+SANDLANE_INLINE Block<Arch> separate(const PairView& view, Block<Arch> (&field)[record_fields]) {
+    if constexpr (images)
+        for (int d = 0; d < dimension; ++d) field[d] = minimum_image(field[d], view.half[d], view.period[d]);
+    const Block<Arch> square = field[0] * field[0] + field[1] * field[1];
+    if constexpr (dimension == 3) return square + field[2] * field[2];
+    return square;
+}
+
 template <class Arch>
 SANDLANE_INLINE laws::PairCoefficients<Block<Arch>>
 gather_coefficients(const PairView& view, const std::int32_t* i, const std::int32_t* j) {
-    double lanes[laws::pair_coefficients][width];
+    using R = Block<Arch>;
+    constexpr int own = laws::pair_coefficients - laws::scene_coefficients;
+    double lanes[own][width];
     for (int l = 0; l < width; ++l) {
         const std::ptrdiff_t pair =
             std::ptrdiff_t{view.material[i[l]]} * view.materials + view.material[j[l]];
         const double* entry = view.coefficients + pair * laws::pair_coefficients;
-        for (int c = 0; c < laws::pair_coefficients; ++c) lanes[c][l] = entry[c];
+        for (int c = 0; c < own; ++c) lanes[c][l] = entry[c];
     }
     return {load<Arch>(lanes[0]), load<Arch>(lanes[1]), load<Arch>(lanes[2]), load<Arch>(lanes[3]),
-            load<Arch>(lanes[4])};
+            load<Arch>(lanes[4]), load<Arch>(lanes[5]), load<Arch>(lanes[6]), load<Arch>(lanes[7]),
+            R(view.coefficients[laws::pair_coefficients - 2]),
+            R(view.coefficients[laws::pair_coefficients - 1])};
 }
 
-SANDLANE_INLINE void add_row(double* force, std::int32_t particle, double x, double y, double t) {
-    double* f = force + std::ptrdiff_t{particle} * force_fields;
-    f[0] += x;
-    f[1] += y;
-    f[2] += t;
+template <class R> SANDLANE_INLINE Vector<R> vector(const R* component, const R& factor) {
+    return {factor * component[0], factor * component[1], factor * component[2]};
 }
 
+// The relative state of eight pairs from their combined records.
+template <class Arch, int dimension, class Tangential, bool couples>
+SANDLANE_INLINE laws::ContactState<dimension, Block<Arch>>
+contact_state(const PairView& view, const std::int32_t* i, const std::int32_t* j,
+              const Block<Arch> (&field)[record_fields]) {
+    using R = Block<Arch>;
+    using Fields = Record<dimension>;
+    const R rate(view.inverse_dt), zero(0.0);
+    laws::ContactState<dimension, R> state;
+    state.radius_sum = field[Fields::radius];
+    state.inverse_radii = field[Fields::inverse_radius];
+    if constexpr (dimension == 2) {
+        state.dx = field[0];
+        state.dy = field[1];
+        state.dvx = rate * field[2];
+        state.dvy = rate * field[3];
+        state.spin = Tangential::needs_spin ? rate * field[Fields::spin] : zero;
+    } else {
+        R spin[spin_fields] = {zero, zero, zero, zero}, turn[spin_fields] = {zero, zero, zero, zero};
+        if constexpr (Tangential::needs_spin) CombineSpins<Arch>::apply(view.spins, i, j, spin, turn);
+        state.d = {field[0], field[1], field[2]};
+        state.dv = vector(field + Fields::velocity, rate);
+        state.spin = vector(spin, rate);
+        state.turn = vector(turn, rate);
+    }
+    if constexpr (couples) {
+        const Turns<Arch, dimension> turns(view.records, view.spins, i, j);
+        if constexpr (dimension == 2) {
+            state.turn = rate * turns.turn[0];
+            state.differ = rate * turns.differ[0];
+        } else {
+            state.differ = vector(turns.differ, rate);
+        }
+        state.radius = turns.first;
+        state.square_difference = turns.first * turns.first - turns.second * turns.second;
+    }
+    return state;
+}
+
+// Eight force rows of pair_force's results.
+template <class Arch, int fields>
+SANDLANE_INLINE void store_force(const laws::PairForce<Block<Arch>>& f, double* rows) {
+    const Block<Arch> row[4] = {f.x, f.y, f.tangential, f.couple};
+    Rows<Arch, 4>::store(row, rows);
+}
+template <class Arch, int fields>
+SANDLANE_INLINE void store_force(const laws::SpatialForce<Block<Arch>>& f, double* rows) {
+    const Block<Arch> zero(0.0);
+    const Vector<Block<Arch>> parts[3] = {f.force, f.turning, f.couple};
+    Block<Arch> row[fields];
+    for (int p = 0; p < fields / 4; ++p) {
+        row[4 * p] = parts[p].x;
+        row[4 * p + 1] = parts[p].y;
+        row[4 * p + 2] = parts[p].z;
+        row[4 * p + 3] = zero;
+    }
+    Rows<Arch, fields>::store(row, rows);
+}
+
+template <class Arch, int dimension, int fields>
 SANDLANE_INLINE void add_forces(double* force, const std::int32_t* i, const std::int32_t* j, int count,
                                 const double* rows, Target target) {
+    using Row = ForceRow<Arch, dimension, fields>;
+    const auto of = [&](std::int32_t grain) { return force + std::ptrdiff_t{grain} * fields; };
     switch (target) {
     case Target::both:
         for (int n = 0; n < count; ++n) {
-            const double* r = rows + n * force_fields;
-            add_row(force, i[n], r[0], r[1], r[2]);
-            add_row(force, j[n], -r[0], -r[1], r[2]);
+            Row::add(of(i[n]), rows + n * fields);
+            Row::add_mirrored(of(j[n]), rows + n * fields);
         }
         break;
     case Target::first:
-        for (int n = 0; n < count; ++n) add_row(force, i[n], rows[4 * n], rows[4 * n + 1], rows[4 * n + 2]);
+        for (int n = 0; n < count; ++n) Row::add(of(i[n]), rows + n * fields);
         break;
     case Target::second:
-        for (int n = 0; n < count; ++n) add_row(force, j[n], -rows[4 * n], -rows[4 * n + 1], rows[4 * n + 2]);
+        for (int n = 0; n < count; ++n) Row::add_mirrored(of(j[n]), rows + n * fields);
         break;
     }
 }
 
-template <class Arch, class Normal, class Tangential, bool many_materials>
+template <class Tangential, bool couples>
+inline constexpr Rotation rotation_of = couples                  ? Rotation::couples
+                                        : Tangential::needs_spin ? Rotation::friction
+                                                                 : Rotation::none;
+
+template <class Arch, int dimension, class Normal, class Tangential, bool couples, bool many_materials>
 double pair_forces(const PairView& view, const std::int32_t* i, const std::int32_t* j, std::int32_t count,
                    Target target, double largest_overlap) {
     using R = Block<Arch>;
-    alignas(64) double rows[pair_chunk * force_fields];
+    constexpr int fields = force_stride(dimension, rotation_of<Tangential, couples>);
+    alignas(64) double rows[pair_chunk * fields];
     laws::PairCoefficients<R> coefficients;
     if constexpr (!many_materials) coefficients = laws::coefficients_from<R>(view.coefficients);
     R most(largest_overlap);
     for (std::int32_t first = 0; first < count; first += pair_chunk) {
         const int size = count - first < pair_chunk ? count - first : pair_chunk;
         for (int n = 0; n < size; n += width) {
+            const std::int32_t *const a = i + first + n, *const b = j + first + n;
             R field[record_fields];
-            CombinePairs<Arch>::apply(view.records, i + first + n, j + first + n, field);
-            if constexpr (many_materials)
-                coefficients = gather_coefficients<Arch>(view, i + first + n, j + first + n);
-            const laws::PairState<R> state{minimum_image(field[0], view.half_x, view.period_x),
-                                           minimum_image(field[1], view.half_y, view.period_y),
-                                           field[2],
-                                           field[3],
-                                           field[4],
-                                           field[5],
-                                           field[6]};
-            const auto f = laws::pair_force<Normal, Tangential>(state, coefficients);
+            CombinePairs<Arch, dimension>::apply(view.records, a, b, field);
+            (void)separate<Arch, dimension>(view, field);
+            if constexpr (many_materials) coefficients = gather_coefficients<Arch>(view, a, b);
+            const auto f = laws::pair_force<Normal, Tangential, couples>(
+                contact_state<Arch, dimension, Tangential, couples>(view, a, b, field), coefficients);
             most = max(f.overlap, most);
-            StoreRows<Arch>::apply(f.x, f.y, f.tangential, R(0.0), rows + n * force_fields, force_fields);
+            store_force<Arch, fields>(f, rows + n * fields);
         }
-        add_forces(view.force, i + first, j + first, size, rows, target);
+        add_forces<Arch, dimension, fields>(view.force, i + first, j + first, size, rows, target);
     }
     return largest(most);
 }

@@ -1,6 +1,6 @@
 // Forces of the near pairs of one tile of grains, in three short loops over chunks that stay in the
 // first-level cache: combine the records of eight pairs and pack those that touch; evaluate the law on packed
-// lanes; add the forces in list order. Only contacts reach the law and the memory of forces.
+// lanes; add the forces in list order. Only contacts reach the law, their memory and the accumulators.
 #pragma once
 
 #include "simd/md/pairs.ipp"
@@ -11,58 +11,62 @@ inline constexpr int tile_chunk = 128; // pairs
 inline constexpr int look_ahead = 64;  // pairs: distance of the prefetch of partners' records
 
 // The contacts of one chunk, packed; room for the full store of the last eight.
-struct Contacts {
+template <int force_fields> struct Contacts {
     static constexpr int room = tile_chunk + width;
-    alignas(64) double dx[room], dy[room], dvx[room], dvy[room], spin[room], sum[room], inverse[room];
+    alignas(64) double field[record_fields][room]; // combined records
     alignas(64) double rows[room * force_fields];
-    alignas(64) double memory[laws::most_memory][room];
     std::int32_t i[room], j[room], place[room]; // place in the chunk
     int count;
 };
 
-// What pairs that touch remember moves along; pairs that do not touch forget.
-template <class Arch, int memory>
-SANDLANE_INLINE void pack_memory(const Mask<Arch>& touch, unsigned touching, int n, double* of_chunk,
-                                 std::ptrdiff_t stride, Contacts& c) {
-    using R = Block<Arch>;
-    const std::int32_t here[width] = {n, n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7};
-    Integers<Arch, width>(here).compress(touching, c.place + c.count);
-    for (int f = 0; f < memory; ++f) {
-        double* at = of_chunk + f * stride + n;
-        const R held = load<Arch>(at);
-        compress(held, touching, c.memory[f] + c.count);
-        store(at, select(touch, held, R(laws::no_contact)));
-    }
+// Whether the laws read field f of combined records.
+template <int dimension, class Normal, class Tangential, bool couples> [[nodiscard]] constexpr bool reads(int f) {
+    using Fields = Record<dimension>;
+    if (dimension == 2 && f == Fields::spin) return Tangential::needs_spin;
+    if (f == Fields::inverse_radius) return Normal::needs_radius || couples;
+    return f < Fields::sums || f == Fields::radius;
 }
 
-template <class Arch, bool spin, bool radius, int memory>
+// A contact that begins has nothing to remember: laws know it by `no_contact`.
+template <int doubles>
+SANDLANE_INLINE void begin_contacts(const TileList& list, std::int32_t pair, unsigned touching) {
+    std::uint8_t& touched = list.touched[pair / width];
+    for (unsigned fresh = touching & ~unsigned{touched}; fresh != 0; fresh &= fresh - 1)
+        list.memory[std::ptrdiff_t{pair + __builtin_ctz(fresh)} * doubles] = laws::no_contact;
+    touched = static_cast<std::uint8_t>(touching);
+}
+
+template <int dimension, bool spin> SANDLANE_INLINE void prefetch_grain(const PairView& view, std::int32_t j) {
+    __builtin_prefetch(view.records + std::ptrdiff_t{j} * record_fields);
+    if (dimension == 3 && spin) __builtin_prefetch(view.spins + std::ptrdiff_t{j} * spin_fields);
+}
+
+template <class Arch, int dimension, bool images, class Normal, class Tangential, bool couples, class Packed>
 SANDLANE_INLINE void pack_contacts(const PairView& view, const TileList& list, std::int32_t first, int size,
-                                   Contacts& c) {
+                                   Packed& c) {
     using R = Block<Arch>;
+    constexpr int memory = laws::memory_of<Normal, Tangential, dimension>;
     const std::int32_t *const i = list.i + first, *const j = list.j + first;
     const std::int32_t* const end = list.j + list.count;
     c.count = 0;
     for (int n = 0; n < size; n += width) {
         if (j + n + look_ahead + width <= end)
             for (int l = 0; l < width; ++l)
-                __builtin_prefetch(view.records + std::ptrdiff_t{j[n + look_ahead + l]} * record_fields);
+                prefetch_grain<dimension, Tangential::needs_spin>(view, j[n + look_ahead + l]);
         R field[record_fields];
-        CombinePairs<Arch>::apply(view.records, i + n, j + n, field);
-        const R dx = minimum_image(field[0], view.half_x, view.period_x);
-        const R dy = minimum_image(field[1], view.half_y, view.period_y);
-        const auto touch = dx * dx + dy * dy < field[5] * field[5];
-        unsigned touching = bits(touch);
+        CombinePairs<Arch, dimension>::apply(view.records, i + n, j + n, field);
+        const R square = separate<Arch, dimension, images>(view, field),
+                sum = field[Record<dimension>::radius];
+        unsigned touching = bits(square < sum * sum);
         if (size - n < width) touching &= (1u << (size - n)) - 1u;
         const int at = c.count;
-        compress(dx, touching, c.dx + at);
-        compress(dy, touching, c.dy + at);
-        compress(field[2], touching, c.dvx + at);
-        compress(field[3], touching, c.dvy + at);
-        if constexpr (spin) compress(field[4], touching, c.spin + at);
-        compress(field[5], touching, c.sum + at);
-        if constexpr (radius) compress(field[6], touching, c.inverse + at);
-        if constexpr (memory > 0)
-            pack_memory<Arch, memory>(touch, touching, n, list.memory + first, list.stride, c);
+        for (int f = 0; f < record_fields; ++f)
+            if (reads<dimension, Normal, Tangential, couples>(f)) compress(field[f], touching, c.field[f] + at);
+        if constexpr (memory > 0) {
+            const std::int32_t here[width] = {n, n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7};
+            Integers<Arch, width>(here).compress(touching, c.place + at);
+            begin_contacts<memory_row(memory)>(list, first + n, touching);
+        }
         Integers<Arch, width>(i + n).compress(touching, c.i + at);
         Integers<Arch, width>(j + n).compress(touching, c.j + at);
         c.count += __builtin_popcount(touching);
@@ -70,28 +74,55 @@ SANDLANE_INLINE void pack_contacts(const PairView& view, const TileList& list, s
 }
 
 // Lanes behind the last contact repeat it, so that they hold numbers.
-template <bool spin, bool radius, int memory> SANDLANE_INLINE void pad_contacts(Contacts& c) {
+template <int dimension, class Normal, class Tangential, bool couples, class Packed>
+SANDLANE_INLINE void pad_contacts(Packed& c) {
     const int last = c.count - 1;
     for (int n = c.count; n % width != 0; ++n) {
-        c.dx[n] = c.dx[last];
-        c.dy[n] = c.dy[last];
-        c.dvx[n] = c.dvx[last];
-        c.dvy[n] = c.dvy[last];
-        if (spin) c.spin[n] = c.spin[last];
-        c.sum[n] = c.sum[last];
-        if (radius) c.inverse[n] = c.inverse[last];
-        for (int f = 0; f < memory; ++f) c.memory[f][n] = c.memory[f][last];
+        for (int f = 0; f < record_fields; ++f)
+            if (reads<dimension, Normal, Tangential, couples>(f)) c.field[f][n] = c.field[f][last];
+        if (laws::memory_of < Normal, Tangential, dimension >> 0) c.place[n] = c.place[last];
         c.i[n] = c.i[last];
         c.j[n] = c.j[last];
     }
 }
 
-template <class Arch, class Normal, class Tangential, bool many_materials>
+// Memory of eight contacts, in rows at `place`, as blocks and back. Rows of one or two numbers go by scalars.
+template <class Arch, int memory>
+SANDLANE_INLINE void load_memory(const double* rows, const std::int32_t* place, Block<Arch> (&held)[memory + 1]) {
+    constexpr int doubles = memory_row(memory);
+    if constexpr (doubles >= 4) {
+        Block<Arch> row[doubles];
+        Rows<Arch, doubles>::gather(rows, place, row);
+        for (int m = 0; m < memory; ++m) held[m] = row[m];
+    } else {
+        double lanes[doubles + 1][width];
+        for (int l = 0; l < width; ++l)
+            for (int m = 0; m < memory; ++m) lanes[m][l] = rows[std::ptrdiff_t{place[l]} * doubles + m];
+        for (int m = 0; m < memory; ++m) held[m] = load<Arch>(lanes[m]);
+    }
+}
+template <class Arch, int memory>
+SANDLANE_INLINE void store_memory(const Block<Arch> (&held)[memory + 1], double* rows, const std::int32_t* place) {
+    constexpr int doubles = memory_row(memory);
+    if constexpr (doubles >= 4) {
+        Block<Arch> row[doubles];
+        for (int m = 0; m < doubles; ++m) row[m] = m < memory ? held[m] : Block<Arch>(0.0);
+        Rows<Arch, doubles>::scatter(row, rows, place);
+    } else {
+        double lanes[doubles + 1][width];
+        for (int m = 0; m < memory; ++m) store(lanes[m], held[m]);
+        for (int l = 0; l < width; ++l)
+            for (int m = 0; m < memory; ++m) rows[std::ptrdiff_t{place[l]} * doubles + m] = lanes[m][l];
+    }
+}
+
+template <class Arch, int dimension, class Normal, class Tangential, bool couples, bool many_materials>
 double tile_forces(const PairView& view, const TileList& list, double* force, double largest_overlap) {
     using R = Block<Arch>;
-    constexpr bool spin = Tangential::needs_spin, radius = Normal::needs_radius;
-    constexpr int memory = laws::memory_of<Tangential>;
-    Contacts c;
+    constexpr int memory = laws::memory_of<Normal, Tangential, dimension>, doubles = memory_row(memory);
+    constexpr int fields = force_stride(dimension, rotation_of<Tangential, couples>);
+    using Row = ForceRow<Arch, dimension, fields>;
+    Contacts<fields> c;
     laws::PairCoefficients<R> coefficients;
     if constexpr (!many_materials) coefficients = laws::coefficients_from<R>(view.coefficients);
     const R elapsed(view.dt);
@@ -99,32 +130,31 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
     const auto size_of_tile = static_cast<std::uint32_t>(list.end - list.begin);
     for (std::int32_t first = 0; first < list.count; first += tile_chunk) {
         const int size = list.count - first < tile_chunk ? list.count - first : tile_chunk;
-        pack_contacts<Arch, spin, radius, memory>(view, list, first, size, c);
-        pad_contacts<spin, radius, memory>(c);
+        double* const remembered = list.memory + std::ptrdiff_t{first} * doubles;
+        if (list.images)
+            pack_contacts<Arch, dimension, true, Normal, Tangential, couples>(view, list, first, size, c);
+        else
+            pack_contacts<Arch, dimension, false, Normal, Tangential, couples>(view, list, first, size, c);
+        pad_contacts<dimension, Normal, Tangential, couples>(c);
         for (int n = 0; n < c.count; n += width) {
             if constexpr (many_materials) coefficients = gather_coefficients<Arch>(view, c.i + n, c.j + n);
-            const laws::PairState<R> state{load<Arch>(c.dx + n),
-                                           load<Arch>(c.dy + n),
-                                           load<Arch>(c.dvx + n),
-                                           load<Arch>(c.dvy + n),
-                                           spin ? load<Arch>(c.spin + n) : R(0.0),
-                                           load<Arch>(c.sum + n),
-                                           radius ? load<Arch>(c.inverse + n) : R(1.0)};
-            R held[memory + 1];
-            for (int m = 0; m < memory; ++m) held[m] = load<Arch>(c.memory[m] + n);
-            const auto f = laws::pair_force<Normal, Tangential>(state, coefficients, held, elapsed);
-            for (int m = 0; m < memory; ++m) store(c.memory[m] + n, held[m]);
+            R field[record_fields], held[memory + 1];
+            for (int f = 0; f < record_fields; ++f)
+                field[f] = reads<dimension, Normal, Tangential, couples>(f) ? load<Arch>(c.field[f] + n) : R(1.0);
+            load_memory<Arch, memory>(remembered, c.place + n, held);
+            const auto f = laws::pair_force<Normal, Tangential, couples>(
+                contact_state<Arch, dimension, Tangential, couples>(view, c.i + n, c.j + n, field), coefficients, held,
+                elapsed);
+            store_memory<Arch, memory>(held, remembered, c.place + n);
             most = max(f.overlap, most);
-            StoreRows<Arch>::apply(f.x, f.y, f.tangential, R(0.0), c.rows + n * force_fields, force_fields);
+            store_force<Arch, fields>(f, c.rows + n * fields);
         }
         for (int n = 0; n < c.count; ++n) {
-            const double* row = c.rows + n * force_fields;
-            add_row<Arch>(force + std::ptrdiff_t{c.i[n] - list.begin} * force_fields, row);
+            const double* row = c.rows + n * fields;
+            Row::add(force + std::ptrdiff_t{c.i[n] - list.begin} * fields, row);
             const auto partner = static_cast<std::uint32_t>(c.j[n] - list.begin);
             const std::ptrdiff_t target = partner < size_of_tile ? std::ptrdiff_t{partner} : tile_grains;
-            add_mirrored_row<Arch>(force + target * force_fields, row);
-            for (int m = 0; m < memory; ++m)
-                list.memory[m * list.stride + first + c.place[n]] = c.memory[m][n];
+            Row::add_mirrored(force + target * fields, row);
         }
     }
     return largest(most);

@@ -40,17 +40,20 @@ std::vector<std::size_t> in_order_of_ids(const md::State& state) {
 scene::BookRecord free_grain(const md::Simulation& sim, std::size_t i) {
     const md::State& state = sim.state();
     const double dt = sim.plan().dt;
+    // The third degree of freedom is the arc R phi.
     const auto value = [&](int dof, int k) {
-        return dof < state.dofs && k < state.order ? state.value(i, dof, k) : 0.0;
+        if (dof >= state.dofs() || k >= state.order) return 0.0;
+        return state.value(i, dof, k) * (dof == 2 ? state.inverse_radius(i) : 1.0);
     };
+    const Vec position = state.position(i), velocity = (1 / dt) * state.shift(i);
     scene::BookRecord r;
-    r.x = value(0, 0);
-    r.y = value(1, 0);
-    r.phi = value(2, 0);
-    r.vx = value(0, 1) / dt;
-    r.vy = value(1, 1) / dt;
-    r.omega = value(2, 1) / dt;
-    r.radius = state.radius[i];
+    r.x = position.x;
+    r.y = position.y;
+    r.phi = state.angle(i);
+    r.vx = velocity.x;
+    r.vy = velocity.y;
+    r.omega = state.turn(i).z / dt;
+    r.radius = state.radius(i);
     r.mass = state.mass[i];
     double factorial = 1, power = dt;
     for (int k = 2; k <= 4; ++k) { // Nordsieck: X_k = dt^k/k! d^k y/dt^k

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace sandlane::app {
 
@@ -57,14 +58,22 @@ std::vector<Difference> compare_forces(md::Simulation& simulation, simd::Isa fir
     const std::vector<double> a = simulation.forces(first, method), b = simulation.forces(second, method);
     std::vector<std::int64_t> ids(simulation.state().id.begin(), simulation.state().id.end());
     std::vector<Difference> result;
-    const char* names[] = {"force x", "force y", "tangential force"};
-    for (std::size_t field = 0; field < 3; ++field) {
+    const md::State& state = simulation.state();
+    struct Field {
+        const char* name;
+        std::size_t position; // in the row of a grain
+    };
+    const Field plane[] = {{"force x", 0}, {"force y", 1}, {"tangential force", 2}};
+    const Field space[] = {{"force x", 0},    {"force y", 1},    {"force z", 2},
+                           {"torque/R x", 4}, {"torque/R y", 5}, {"torque/R z", 6}};
+    for (const Field& field : state.dimension == 3 ? std::span<const Field>(space) : plane) {
+        if (field.position >= state.force_stride()) continue;
         std::vector<double> x, y;
         for (std::size_t i = 0; i < ids.size(); ++i) {
-            x.push_back(a[i * simd::force_fields + field]);
-            y.push_back(b[i * simd::force_fields + field]);
+            x.push_back(a[i * state.force_stride() + field.position]);
+            y.push_back(b[i * state.force_stride() + field.position]);
         }
-        result.push_back(difference(names[field], "N", ids, x, y));
+        result.push_back(difference(field.name, "N", ids, x, y));
     }
     return result;
 }

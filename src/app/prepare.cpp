@@ -28,7 +28,7 @@ namespace {
 bool same_grains(const md::State& state, const std::vector<scene::GrainState>& grains) {
     for (std::size_t i = 0; i < state.size(); ++i) {
         const auto id = static_cast<std::size_t>(state.id[i]);
-        if (id >= grains.size() || grains[id].radius != state.radius[i] || grains[id].mass != state.mass[i])
+        if (id >= grains.size() || grains[id].radius != state.radius(i) || grains[id].mass != state.mass[i])
             return false;
     }
     return true;

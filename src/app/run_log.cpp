@@ -30,8 +30,8 @@ constexpr Entry entries[] = {
     {"added_energy", "J", [](Sim s, Obs) { return s.added_energy(); }},
     {"wall_work", "J", [](Sim s, Obs) { return s.wall_work(); }},
     {"dissipated_energy", "J", [](Sim s, Obs o) { return s.dissipated(o); }},
-    {"momentum_x", "kg m/s", [](Sim, Obs o) { return o.momentum_x; }},
-    {"momentum_y", "kg m/s", [](Sim, Obs o) { return o.momentum_y; }},
+    {"momentum_x", "kg m/s", [](Sim, Obs o) { return o.momentum.x; }},
+    {"momentum_y", "kg m/s", [](Sim, Obs o) { return o.momentum.y; }},
     {"contacts", "1", [](Sim, Obs o) { return static_cast<double>(o.contacts); }},
     {"wall_contacts", "1", [](Sim, Obs o) { return static_cast<double>(o.wall_contacts); }},
     {"largest_overlap", "R_min", [](Sim, Obs o) { return o.largest_overlap; }},
@@ -41,13 +41,13 @@ constexpr Entry entries[] = {
 
 struct WallEntry {
     const char *name, *unit;
-    double md::WallLoad::*value;
+    double (*value)(const md::WallLoad&);
 };
 constexpr WallEntry wall_entries[] = {
-    {"force_x", "N", &md::WallLoad::force_x},
-    {"force_y", "N", &md::WallLoad::force_y},
-    {"torque", "N m", &md::WallLoad::torque},
-    {"power", "W", &md::WallLoad::power},
+    {"force_x", "N", [](const md::WallLoad& w) { return w.force.x; }},
+    {"force_y", "N", [](const md::WallLoad& w) { return w.force.y; }},
+    {"torque", "N m", [](const md::WallLoad& w) { return w.torque.z; }},
+    {"power", "W", [](const md::WallLoad& w) { return w.power; }},
 };
 
 // A name that a column can bear and no other wall has; else the wall's number.
@@ -76,7 +76,7 @@ std::vector<double> log_row(const md::Simulation& simulation, const md::Observab
     std::vector<double> row;
     for (const Entry& entry : entries) row.push_back(entry.value(simulation, observed));
     for (const md::WallLoad& load : observed.walls)
-        for (const WallEntry& entry : wall_entries) row.push_back(load.*entry.value);
+        for (const WallEntry& entry : wall_entries) row.push_back(entry.value(load));
     return row;
 }
 

@@ -23,7 +23,7 @@ std::string Summary::json() const {
     const std::string plan_text =
         fmt::format(R"({{"engine": "md", "neighbours": "{}", "order": {}, "spin": {}, "dt": {}}})",
                     scene::neighbour_choices()[static_cast<std::size_t>(plan.neighbours)], plan.order,
-                    plan.spin, json_number(plan.dt));
+                    md::turns(plan), json_number(plan.dt));
     return fmt::format(
         R"({{"status": "{}", "steps": {}, "step": {}, "time": {}, "particles": {}, "removed": {}, )"
         R"("wall_seconds": {:.6g}, "total_wall_seconds": {:.6g}, "loop_seconds": {:.6g}, )"

@@ -23,4 +23,9 @@ using std::sqrt;
     return condition ? yes : no;
 }
 
+// Whether a condition holds in any lane: what no lane needs may be left out.
+[[nodiscard]] constexpr bool any(bool condition) {
+    return condition;
+}
+
 } // namespace sandlane

@@ -48,6 +48,12 @@ public:
     }
     [[nodiscard]] double uniform(std::uint64_t index) const { return uniform2(index)[0]; }
 
+    // Three of them, for indices below 2^63; the first two are those of uniform2.
+    [[nodiscard]] std::array<double, 3> uniform3(std::uint64_t index) const {
+        const auto [u, w] = uniform2(index);
+        return {u, w, uniform(index | upper_half)};
+    }
+
     // Two independent standard normal deviates (Box-Muller).
     [[nodiscard]] std::array<double, 2> normal2(std::uint64_t index) const {
         const auto [u, w] = uniform2(index);
@@ -55,8 +61,15 @@ public:
         const double angle = 2.0 * std::numbers::pi * w;
         return {radius * std::cos(angle), radius * std::sin(angle)};
     }
+    // Three of them, for indices below 2^63; the first two are those of normal2.
+    [[nodiscard]] std::array<double, 3> normal3(std::uint64_t index) const {
+        const auto [x, y] = normal2(index);
+        return {x, y, normal2(index | upper_half)[0]};
+    }
 
 private:
+    static constexpr std::uint64_t upper_half = std::uint64_t{1} << 63;
+
     static constexpr double to_unit(std::uint32_t high, std::uint32_t low) {
         const std::uint64_t bits = (std::uint64_t{high} << 32 | low) >> 11;
         return static_cast<double>(bits) * 0x1p-53;

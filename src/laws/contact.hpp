@@ -3,61 +3,139 @@
 #pragma once
 
 #include "laws/normal.hpp"
+#include "laws/rolling.hpp"
 #include "laws/tangential.hpp"
+
+#include <type_traits>
 
 namespace sandlane::laws {
 
-// Coefficients of one pair of materials: what the normal law and the tangential law read (laws.def).
+// Coefficients of one pair of materials, and two of the scene; a law reads only its own (laws.def).
 template <class R> struct PairCoefficients {
     R elastic, dissipative;         // normal law
     R tangential_damping, friction; // gamma_t [kg/s], mu
     R tangential_stiffness;         // k_t [N/m]
+    R cohesion;                     // Pa
+    R rolling_friction;             // mu_r
+    R rolling_damping;              // gamma_r [N m s]
+    R least;                        // N, see NormalInput
+    R lever;                        // 0: lever arms R_i; 1: distances to the plane of the contact (1.8)
 };
-inline constexpr int pair_coefficients = 5; // doubles of one entry of a material pair table
-template <class R> SANDLANE_INLINE PairCoefficients<R> coefficients_from(const double* entry) {
-    return {R(entry[0]), R(entry[1]), R(entry[2]), R(entry[3]), R(entry[4])};
+inline constexpr int pair_coefficients = 10; // doubles of one entry of a material pair table
+inline constexpr int scene_coefficients = 2; // the last of them, equal for all pairs
+template <class R> SANDLANE_INLINE PairCoefficients<R> coefficients_from(const double* e) {
+    return {R(e[0]), R(e[1]), R(e[2]), R(e[3]), R(e[4]), R(e[5]), R(e[6]), R(e[7]), R(e[8]), R(e[9])};
 }
 
-// Numbers that a contact of these laws remembers, at most.
-inline constexpr int most_memory = 4;
-template <class Tangential, int dimension = 2>
-inline constexpr int memory_of = dimension == 3 ? Tangential::memory_in_space : Tangential::memory;
+// Numbers that a contact of these laws remembers: the tangential law's, then the normal law's. The first number
+// of a contact that begins is `no_contact`.
+template <class Tangential, int dimension>
+inline constexpr int tangential_memory = dimension == 3 ? Tangential::memory_in_space : Tangential::memory;
+template <class Normal, class Tangential, int dimension>
+inline constexpr int memory_of = tangential_memory<Tangential, dimension> + Normal::memory;
+inline constexpr int most_memory = 5;
+inline constexpr double no_contact = 1e300;
 
-// Relative state of j seen from i: d = r_j - r_i (minimum image), dv = v_j - v_i, sums over both grains.
+template <class Tangential, int dimension>
+inline constexpr bool exists_in = dimension == 2 || Tangential::in_space;
+
+// A contact that begins remembers zeros, and no time has passed since its last evaluation.
+template <int memory, class R> SANDLANE_INLINE R begin_contact(R* held, const R& elapsed) {
+    if constexpr (memory == 0) return elapsed;
+    const R zero(0.0);
+    const auto fresh = held[0] > R(0.5 * no_contact);
+    for (int m = 0; m < memory; ++m) held[m] = select(fresh, zero, held[m]);
+    return select(fresh, zero, elapsed);
+}
+
+// Lever arms l_i, l_j of a contact at distance d (1.8).
+template <class R> struct Levers {
+    R first, second;
+};
+template <class R>
+SANDLANE_INLINE Levers<R> levers(const R& distance, const R& radius, const R& radius_sum,
+                                 const R& square_difference, const R& plane) {
+    const R half(0.5), other = radius_sum - radius;
+    const R first = half * (distance + square_difference / distance);
+    return {radius + plane * (first - radius), other + plane * ((distance - first) - other)};
+}
+
+// Relative state of j seen from i: d = r_j - r_i (minimum image), dv = v_j - v_i, sums over both grains. The
+// members behind the reduced radius are read where couples are asked for, and `spin` is not.
 template <class R> struct PairState {
     R dx, dy, dvx, dvy;
-    R spin;                   // R_i omega_i + R_j omega_j
-    R radius_sum;             // R_i + R_j
-    R inverse_reduced_radius; // 1/R_i + 1/R_j
+    R spin;           // R_i omega_i + R_j omega_j
+    R radius_sum;     // R_i + R_j
+    R inverse_radii;  // 1/R_i + 1/R_j
+    R turn{}, differ{}; // omega_i + omega_j, omega_i - omega_j
+    R radius{}, square_difference{}; // R_i, R_i^2 - R_j^2; walls, which are flat here: d^2
 };
 
-// Force on i; j gets the opposite force and the same tangential force (equal torque signs, 1.7).
+// Force on i; j gets the opposite force and the same tangential force (equal torque signs, 1.7). The torque on i
+// is R_i tangential + couple, that on j R_j tangential - couple.
 template <class R> struct PairForce {
     R x, y, tangential;
     R overlap; // xi, negative without contact
+    R couple{};
+};
+
+template <class Normal, class R>
+SANDLANE_INLINE NormalForce<R> normal_force(const R& overlap, const R& rate, const PairCoefficients<R>& c,
+                                            const R& reduced_radius, R* memory) {
+    return Normal::force(
+        NormalInput<R>{overlap, rate, c.elastic, c.dissipative, reduced_radius, c.cohesion, c.least}, memory);
+}
+
+// 1/d, and R_eff if the laws want it: one division for both.
+template <bool reduced, class R> struct Inverses {
+    R distance, radii;
+    SANDLANE_INLINE Inverses(const R& d, const R& inverse_radii) {
+        if constexpr (reduced) {
+            const R both = R(1.0) / (d * inverse_radii);
+            distance = both * inverse_radii;
+            radii = both * d;
+        } else {
+            distance = R(1.0) / d;
+            radii = R(1.0);
+        }
+    }
 };
 
 // overlap <= 0 means no contact and gives exact zeros. Coincident centres must have been excluded. `memory`
 // of the contact is brought up to the present, `elapsed` [s] after the last time; laws without memory do
 // without both.
-template <class Normal, class Tangential, class R>
+template <class Normal, class Tangential, bool couples = false, class R>
 SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoefficients<R>& c,
                                         R* memory = nullptr, const R& elapsed = R(0.0)) {
-    const R distance = sqrt(s.dx * s.dx + s.dy * s.dy), inverse = R(1.0) / distance;
+    const R time = begin_contact<memory_of<Normal, Tangential, 2>>(memory, elapsed);
+    const R zero(0.0), distance = sqrt(s.dx * s.dx + s.dy * s.dy);
+    const Inverses<Normal::needs_radius || couples, R> inverse(distance, s.inverse_radii);
     const R overlap = s.radius_sum - distance;
-    const R nx = s.dx * inverse, ny = s.dy * inverse;
+    const R nx = s.dx * inverse.distance, ny = s.dy * inverse.distance;
     const R rate = -(s.dvx * nx + s.dvy * ny);
-    const auto touching = overlap > R(0.0);
-    const R safe_overlap = select(touching, overlap, R(0.0));
-    const R f_n =
-        Normal::force(NormalInput<R>{safe_overlap, rate, c.elastic, c.dissipative, s.inverse_reduced_radius});
-    const R v_t = Tangential::needs_spin ? s.dvx * ny - s.dvy * nx + s.spin : R(0.0);
-    const R f_t = Tangential::force(
-        TangentialInput<R>{f_n, v_t, c.tangential_damping, c.friction, c.tangential_stiffness, elapsed},
-        memory);
-    const R zero(0.0);
-    return {select(touching, -(f_n * nx) - f_t * ny, zero), select(touching, f_t * nx - f_n * ny, zero),
-            select(touching, f_t, zero), overlap};
+    const auto touching = overlap > zero;
+    const NormalForce<R> f_n = normal_force<Normal>(select(touching, overlap, zero), rate, c, inverse.radii,
+                                                    memory + Tangential::memory);
+    R spin = s.spin, share(1.0);
+    Levers<R> arm{s.radius, zero};
+    if constexpr (couples) {
+        arm = levers(distance, s.radius, s.radius_sum, s.square_difference, c.lever);
+        spin = R(0.5) * ((arm.first + arm.second) * s.turn + (arm.first - arm.second) * s.differ);
+        share = (arm.first + arm.second) / s.radius_sum;
+    }
+    const R v_t = Tangential::needs_spin ? s.dvx * ny - s.dvy * nx + spin : zero;
+    const R f_t = Tangential::force(TangentialInput<R>{f_n.load, v_t, c.tangential_damping, c.friction,
+                                                       c.tangential_stiffness, time},
+                                    memory);
+    PairForce<R> f{select(touching, -(f_n.force * nx) - f_t * ny, zero),
+                   select(touching, f_t * nx - f_n.force * ny, zero), select(touching, f_t, zero), overlap};
+    if constexpr (couples) {
+        const R limit = c.rolling_friction * inverse.radii * f_n.load;
+        const R couple = (arm.first - s.radius * share) * f_t + rolling_couple(s.differ, c.rolling_damping, limit);
+        f.tangential = share * f.tangential;
+        f.couple = select(touching, couple, zero);
+    }
+    return f;
 }
 
 // ---- in space
@@ -67,34 +145,69 @@ template <class R> struct SpatialState {
     Vector<R> spin; // R_i omega_i + R_j omega_j
     Vector<R> turn; // omega_i + omega_j; only laws that need the twist look at it
     R radius_sum;   // R_i + R_j
-    R inverse_reduced_radius;
+    R inverse_radii;
+    Vector<R> differ{};              // omega_i - omega_j
+    R radius{}, square_difference{}; // as in the plane
 };
 
 // Force on i; j gets the opposite force. Torque over the lever arm, n x f_t, is the same for both (1.7).
 template <class R> struct SpatialForce {
     Vector<R> force, turning;
     R overlap;
+    Vector<R> couple{};
 };
 
-template <class Normal, class Tangential, class R>
+template <class Normal, class Tangential, bool couples = false, class R>
 SANDLANE_INLINE SpatialForce<R> pair_force(const SpatialState<R>& s, const PairCoefficients<R>& c,
                                            R* memory = nullptr, const R& elapsed = R(0.0)) {
+    const R time = begin_contact<memory_of<Normal, Tangential, 3>>(memory, elapsed);
     const R zero(0.0), distance = sqrt(dot(s.d, s.d));
+    const Inverses<Normal::needs_radius || couples, R> inverse(distance, s.inverse_radii);
     const R overlap = s.radius_sum - distance;
-    const Vector<R> n = R(1.0) / distance * s.d;
+    const Vector<R> n = inverse.distance * s.d, none{zero, zero, zero};
     const R rate = -dot(s.dv, n);
     const auto touching = overlap > zero;
-    const R safe_overlap = select(touching, overlap, zero);
-    const R f_n =
-        Normal::force(NormalInput<R>{safe_overlap, rate, c.elastic, c.dissipative, s.inverse_reduced_radius});
-    const Vector<R> none{zero, zero, zero};
-    if constexpr (!Tangential::needs_spin) return {select(touching, -f_n * n, none), none, overlap};
-    const Vector<R> u_t = cross(s.spin, n) - s.dv - rate * n;
+    const NormalForce<R> f_n = normal_force<Normal>(select(touching, overlap, zero), rate, c, inverse.radii,
+                                                    memory + Tangential::memory_in_space);
+    if constexpr (!Tangential::needs_spin) return {select(touching, -f_n.force * n, none), none, overlap};
+    Vector<R> spin = s.spin;
+    R share(1.0);
+    Levers<R> arm{s.radius, zero};
+    if constexpr (couples) {
+        arm = levers(distance, s.radius, s.radius_sum, s.square_difference, c.lever);
+        spin = R(0.5) * ((arm.first + arm.second) * s.turn + (arm.first - arm.second) * s.differ);
+        share = (arm.first + arm.second) / s.radius_sum;
+    }
+    const Vector<R> u_t = cross(spin, n) - s.dv - rate * n;
     const R twist = Tangential::needs_twist ? R(0.5) * dot(s.turn, n) : zero;
-    const Vector<R> f_t = Tangential::force(SpatialInput<R>{f_n, u_t, n, twist, c.tangential_damping,
-                                                            c.friction, c.tangential_stiffness, elapsed},
+    const Vector<R> f_t = Tangential::force(SpatialInput<R>{f_n.load, u_t, n, twist, c.tangential_damping,
+                                                            c.friction, c.tangential_stiffness, time},
                                             memory);
-    return {select(touching, f_t - f_n * n, none), select(touching, cross(n, f_t), none), overlap};
+    const Vector<R> turning = cross(n, f_t);
+    SpatialForce<R> f{select(touching, f_t - f_n.force * n, none), select(touching, turning, none), overlap};
+    if constexpr (couples) {
+        const R limit = c.rolling_friction * inverse.radii * f_n.load;
+        const Vector<R> couple = (arm.first - s.radius * share) * turning +
+                                 rolling_couple(s.differ - dot(s.differ, n) * n, c.rolling_damping, limit);
+        f.turning = share * f.turning;
+        f.couple = select(touching, couple, none);
+    }
+    return f;
+}
+
+// ---- in either
+
+template <int dimension, class R>
+using ContactState = std::conditional_t<dimension == 3, SpatialState<R>, PairState<R>>;
+
+// Elastic energy of a contact, J, from its overlap and what it remembers.
+template <class Normal, class Tangential, int dimension>
+double elastic_energy(double overlap, double inverse_radii, const PairCoefficients<double>& c,
+                      const double* memory) {
+    const NormalInput<double> input{overlap, 0, c.elastic, c.dissipative, 1 / inverse_radii, c.cohesion, c.least};
+    const double normal = Normal::energy(input, memory + tangential_memory<Tangential, dimension>);
+    if constexpr (dimension == 3) return normal + Tangential::energy_in_space(c.tangential_stiffness, memory);
+    return normal + Tangential::energy(c.tangential_stiffness, memory);
 }
 
 } // namespace sandlane::laws

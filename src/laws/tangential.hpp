@@ -3,10 +3,11 @@
 #pragma once
 
 #include "core/vector.hpp"
+#include "laws/cube_root.hpp"
 
 namespace sandlane::laws {
 
-// f_n >= 0 normal force [N], rate v_t of the surfaces along t [m/s], coefficients of the pair of
+// Load f_n >= 0 [N] that presses the surfaces together, rate v_t of the surfaces along t [m/s], coefficients of the pair of
 // materials, time since the last evaluation [s].
 template <class R> struct TangentialInput {
     R normal_force, rate;
@@ -23,14 +24,12 @@ template <class R> struct SpatialInput {
     R elapsed;
 };
 
-// What the memory of a contact holds before its first evaluation, where a law must know that it is the first.
-inline constexpr double no_contact = 1e300;
-
 // A law returns f_t on grain i along t, or as a vector [N]. `memory` numbers per contact (`memory_in_space`
 // in 3D) live as long as the contact does; both partners see the same numbers in 2D and opposite ones in 3D.
-// Laws without memory do not look at it.
+// At its first evaluation they are zero, and so is the time elapsed. Laws without memory do not look at them.
+// in_space: the law has a form in 3D.
 struct Frictionless {
-    static constexpr bool needs_spin = false, needs_twist = false;
+    static constexpr bool needs_spin = false, needs_twist = false, in_space = true;
     static constexpr int memory = 0, memory_in_space = 0;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>&, R*) { return R(0.0); }
     template <class R> static SANDLANE_INLINE Vector<R> force(const SpatialInput<R>&, R*) {
@@ -42,7 +41,7 @@ struct Frictionless {
 
 // f_t = -sign(v_t) min(gamma_t |v_t|, mu f_n) (2.18), written as a clamp so that v_t = 0 gives zero.
 struct HaffWerner {
-    static constexpr bool needs_spin = true, needs_twist = false;
+    static constexpr bool needs_spin = true, needs_twist = false, in_space = true;
     static constexpr int memory = 0, memory_in_space = 0;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R*) {
         const R limit = c.friction * c.normal_force;
@@ -61,12 +60,11 @@ struct HaffWerner {
 // f_t = -k_t zeta - gamma_t v_t, at most mu f_n; while the contact slides zeta is what gives just that force,
 // so that it lets go at once when the motion reverses. memory: zeta [m].
 struct CundallStrack {
-    static constexpr bool needs_spin = true, needs_twist = true;
+    static constexpr bool needs_spin = true, needs_twist = true, in_space = true;
     static constexpr int memory = 1, memory_in_space = 3;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R* zeta) {
         const R zero(0.0);
-        const auto first = zeta[0] > R(0.5 * no_contact);
-        const R spring = select(first, zero, zeta[0] + c.elapsed * c.rate);
+        const R spring = zeta[0] + c.elapsed * c.rate;
         const R damped = c.damping * c.rate;
         const R trial = -(c.stiffness * spring) - damped;
         const R limit = c.friction * c.normal_force;
@@ -79,17 +77,18 @@ struct CundallStrack {
     template <class R> static SANDLANE_INLINE Vector<R> force(const SpatialInput<R>& c, R* zeta) {
         const R zero(0.0), one(1.0);
         const Vector<R> none{zero, zero, zero};
-        const auto first = zeta[0] > R(0.5 * no_contact);
-        const Vector<R> spring =
-            select(first, none, carried(c, {zeta[0], zeta[1], zeta[2]}) + c.elapsed * c.velocity);
+        const Vector<R> spring = carried(c, {zeta[0], zeta[1], zeta[2]}) + c.elapsed * c.velocity;
         const Vector<R> damped = c.damping * c.velocity;
         const Vector<R> trial = -c.stiffness * spring - damped;
         const R limit = c.friction * c.normal_force;
         const R square = dot(trial, trial);
         const auto slides = square > limit * limit;
-        const Vector<R> force = select(slides, limit / sqrt(square), one) * trial;
-        const Vector<R> pulled = -(one / c.stiffness) * (force + damped);
-        const Vector<R> held = select(c.normal_force > zero, select(slides, pulled, spring), none);
+        Vector<R> force = trial, held = spring;
+        if (any(slides)) {
+            force = select(slides, limit / sqrt(square), one) * trial;
+            held = select(slides, -(one / c.stiffness) * (force + damped), spring);
+        }
+        held = select(c.normal_force > zero, held, none);
         zeta[0] = held.x;
         zeta[1] = held.y;
         zeta[2] = held.z;
@@ -114,6 +113,32 @@ private:
         const R stretch = sqrt(dot(old, old) / square);
         return select(square > R(0.0), stretch, R(0.0)) * turned;
     }
+};
+
+// A tangential stiffness that falls from k_0 to zero at Coulomb's limit and starts anew at every reversal
+// (2.22)-(2.23), with the exponent 1/3. stiffness = k_0 [N/m]. memory: F, F* [N], sign of the last displacement,
+// load at the last evaluation [N]. In the plane only.
+struct WaltonBraunTangential {
+    static constexpr bool needs_spin = true, needs_twist = false, in_space = false;
+    static constexpr int memory = 4, memory_in_space = 0;
+    template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R* m) {
+        const R zero(0.0), one(1.0), limit = c.friction * c.normal_force;
+        const R scaled = select(m[3] > zero, m[1] * (c.normal_force / m[3]), zero);
+        const R f = max(min(m[0], limit), -limit), last = max(min(scaled, limit), -limit);
+        const R shift = c.elapsed * c.rate;
+        const R turn = select(zero > shift * m[2], f, last);
+        const auto grows = shift > zero;
+        const R room = select(grows, limit - f, limit + f), whole = select(grows, limit - turn, limit + turn);
+        const R part = max(min(room / whole, one), zero);
+        const R stiffness = select(whole > R(1e-12) * limit, c.stiffness * cube_root(part), zero);
+        m[0] = max(min(f + stiffness * shift, limit), -limit);
+        m[1] = turn;
+        m[2] = select(grows, one, select(zero > shift, -one, m[2]));
+        m[3] = c.normal_force;
+        return -m[0];
+    }
+    // What it holds is not told from what it lost: none is counted.
+    template <class R> static SANDLANE_INLINE R energy(const R&, const R*) { return R(0.0); }
 };
 
 } // namespace sandlane::laws

@@ -4,6 +4,9 @@
 
 #include "core/error.hpp"
 #include "md/near_pairs.hpp"
+#include "scene/cell_grid.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,18 +23,29 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 } // namespace
 
-// Storage order: strips of eight rows, column by column, so that neighbours lie close in memory.
+// Storage order: in the plane strips of eight rows, column by column; in space pencils of eight by eight
+// cells, layer by layer. Neighbours lie close in memory, and a tile of consecutive grains is about as wide as
+// it is long.
 void Simulation::sort_by_place() {
     sorted_ = true;
     constexpr std::int64_t strip = 8;
-    const double edge = std::max(2 * needs_.radius_min, 1e-4 * norm(plan_.upper - plan_.lower));
-    const auto columns = static_cast<std::int64_t>((plan_.upper.x - plan_.lower.x) / edge) + 2;
+    const Vec size = plan_.upper - plan_.lower;
+    const double edge = std::max(2 * needs_.radius_min, 1e-4 * norm(size));
+    const auto cells = [&](double length) { return static_cast<std::int64_t>(length / edge) + 2; };
+    const std::int64_t columns = cells(size.x), row_strips = cells(size.y) / strip + 1;
     const std::size_t n = state_.size();
     std::vector<std::int64_t> key(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const auto column = static_cast<std::int64_t>((state_.value(i, 0, 0) - plan_.lower.x) / edge);
-        const auto row = static_cast<std::int64_t>((state_.value(i, 1, 0) - plan_.lower.y) / edge);
-        key[i] = (row / strip * columns + column) * strip + row % strip;
+        const Vec p = state_.position(i) - plan_.lower;
+        const auto column = static_cast<std::int64_t>(p.x / edge),
+                   row = static_cast<std::int64_t>(p.y / edge);
+        const auto layer = plan_.dimension == 3 ? static_cast<std::int64_t>(p.z / edge) : 0;
+        key[i] =
+            plan_.dimension == 2
+                ? (row / strip * columns + column) * strip + row % strip
+                : (((layer / strip * row_strips + row / strip) * columns + column) * strip + layer % strip) *
+                          strip +
+                      row % strip;
     }
     std::vector<std::uint32_t> order(n);
     std::iota(order.begin(), order.end(), 0U);
@@ -41,25 +55,22 @@ void Simulation::sort_by_place() {
     lists_.invalidate(state_);
     state_.reorder(order);
     if (is_lattice(plan_.neighbours)) lattice_.clear(state_);
-    state_.refresh_records(plan_.dt);
 }
 
 // Puts every grain on the lattice at the positions of the records.
 void Simulation::bin() {
     if (!is_lattice(plan_.neighbours)) return;
     lattice_.clear(state_);
-    lattice_.leave(state_, kernels_->bin, 0, state_.size());
+    lattice_.leave(state_, kernels_->plane.bin, 0, state_.size());
     lattice_.enter(state_, 0, state_.size());
 }
 
 bool Simulation::has_room(const scene::GrainState& grain) const {
-    const Vec size = plan_.upper - plan_.lower;
+    const scene::Box box(scene_.domain);
     for (std::size_t i = 0; i < state_.size(); ++i) {
-        double dx = state_.value(i, 0, 0) - grain.position.x, dy = state_.value(i, 1, 0) - grain.position.y;
-        if (scene_.domain.periodic[0]) dx -= size.x * std::nearbyint(dx / size.x);
-        if (scene_.domain.periodic[1]) dy -= size.y * std::nearbyint(dy / size.y);
-        const double reach = state_.radius[i] + grain.radius;
-        if (dx * dx + dy * dy < reach * reach) return false;
+        const Vec d = box.separation(grain.position, state_.position(i));
+        const double reach = state_.radius(i) + grain.radius;
+        if (dot(d, d) < reach * reach) return false;
     }
     bool room = true;
     walls_.for_touching(grain.position, grain.radius, [&](std::size_t, const WallContact&) { room = false; });
@@ -79,10 +90,10 @@ void Simulation::insert_due() {
                              [](const auto& a, const auto& b) { return a.insert_at < b.insert_at; });
             continue;
         }
-        state_.append(grain, plan_, plan_.dt);
+        state_.append(grain, plan_.dt);
         const std::size_t i = state_.size() - 1;
-        state_.value(i, 0, 2) = 0.5 * plan_.dt * plan_.dt * scene_.domain.gravity.x;
-        state_.value(i, 1, 2) = 0.5 * plan_.dt * plan_.dt * scene_.domain.gravity.y;
+        const double no_force[8] = {};
+        state_.set_accelerations(i, no_force, motion_view());
         added_energy_ += grain_energy(scene_, plan_, state_, i);
         ++next_waiting_;
         inserted = true;
@@ -90,27 +101,34 @@ void Simulation::insert_due() {
     if (inserted) sort_by_place();
 }
 
+bool Simulation::is_inside(Vec p) const {
+    const Vec low = plan_.lower, high = plan_.upper;
+    return p.x >= low.x && p.x < high.x && p.y >= low.y && p.y < high.y &&
+           (plan_.dimension == 2 || (p.z >= low.z && p.z < high.z));
+}
+
 // Grains whose predicted centre left an open side are removed and counted, or end the run.
 void Simulation::handle_outside() {
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i < state_.size(); ++i) {
-        const double* r = state_.record.data() + i * simd::record_fields;
-        const bool inside =
-            r[0] >= plan_.lower.x && r[0] < plan_.upper.x && r[1] >= plan_.lower.y && r[1] < plan_.upper.y;
-        if (inside) {
+        const Vec p = state_.position(i);
+        if (is_inside(p)) {
             kept.push_back(static_cast<std::uint32_t>(i));
             continue;
         }
-        if (!std::isfinite(r[0]) || !std::isfinite(r[1]) || !std::isfinite(r[2]) || !std::isfinite(r[3]))
+        const std::string place = plan_.dimension == 2
+                                      ? fmt::format("({:.6g}, {:.6g})", p.x, p.y)
+                                      : fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+        if (!std::isfinite(norm(p)) || !std::isfinite(norm(state_.shift(i))))
             fail(Exit::unstable,
-                 "step {}, t = {:.6g} s: grain {} has position ({}, {}): the run is unstable; lower md.dt",
-                 step_, time(), state_.id[i], r[0], r[1]);
+                 "step {}, t = {:.6g} s: grain {} has position {}: the run is unstable; lower md.dt", step_,
+                 time(), state_.id[i], place);
         if (scene_.domain.outside == scene::Outside::error)
             fail(Exit::unstable,
-                 "step {}, t = {:.6g} s: grain {} left the domain at ({:.6g}, {:.6g}). Enlarge the domain, "
-                 "add walls, or set "
+                 "step {}, t = {:.6g} s: grain {} left the domain at {}. Enlarge the domain, add walls, or "
+                 "set "
                  "domain.outside = \"remove\".",
-                 step_, time(), state_.id[i], r[0], r[1]);
+                 step_, time(), state_.id[i], place);
         added_energy_ -= grain_energy(scene_, plan_, state_, i);
         ++removed_;
     }
@@ -131,14 +149,11 @@ void Simulation::check_overlap(double overlap) const {
 
 // Names the two grains that overlap most at the predicted positions.
 void Simulation::fail_overlap() const {
-    const auto centre = [&](std::size_t i) {
-        const double* r = state_.record.data() + i * simd::record_fields;
-        return Vec{r[0], r[1], 0};
-    };
+    const auto centre = [&](std::size_t i) { return state_.position(i); };
     double worst = -infinity, distance = 0;
     std::size_t first = 0, second = 0;
     for_near_pairs(scene_, state_, centre, [&](std::size_t i, std::size_t j, Vec d) {
-        const double overlap = state_.radius[i] + state_.radius[j] - norm(d);
+        const double overlap = state_.radius(i) + state_.radius(j) - norm(d);
         if (overlap <= worst) return;
         worst = overlap;
         distance = norm(d);

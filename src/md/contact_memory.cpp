@@ -6,6 +6,20 @@
 
 namespace sandlane::md {
 
+void ContactMemory::add(std::int64_t first, std::int64_t second, const double* values) {
+    add_wall(std::min(first, second), std::max(first, second), values, 1);
+    if (first < second) return;
+    double* const stored = values_.data() + values_.size() - fields_;
+    for (std::size_t f = 0; f < odd_; ++f) stored[f] = -stored[f];
+}
+
+bool ContactMemory::find(std::int64_t first, std::int64_t second, double* values) const {
+    const double* stored = find_wall(std::min(first, second), std::max(first, second));
+    if (stored == nullptr) return false;
+    for (std::size_t f = 0; f < fields_; ++f) values[f] = f < odd_ && first > second ? -stored[f] : stored[f];
+    return true;
+}
+
 void ContactMemory::add_wall(std::int64_t grain, std::int64_t element, const double* values,
                              std::ptrdiff_t stride) {
     keys_.push_back({grain, element});
@@ -39,8 +53,8 @@ void ContactMemory::write(ByteWriter& bytes) const {
     bytes.put_array(values_.data(), values_.size());
 }
 
-ContactMemory ContactMemory::read(ByteReader& bytes, int fields, std::int64_t grains) {
-    ContactMemory memory(fields);
+ContactMemory ContactMemory::read(ByteReader& bytes, const ContactMemory& kind, std::int64_t grains) {
+    ContactMemory memory = kind.empty_copy();
     std::vector<std::int64_t> ids;
     bytes.get_array(ids);
     bytes.get_array(memory.values_);

@@ -35,8 +35,13 @@ bool on_lattice(const Plan& plan) {
 } // namespace
 
 double memory_bytes(const Needs& needs, const Plan& plan) {
-    const double state =
-        8.0 * (plan.order * (plan.spin ? 3 : 2) + simd::record_fields + simd::force_fields + 4) + 20;
+    const int dofs = simd::degrees_of_freedom(plan.dimension, turns(plan));
+    const bool lists = plan.neighbours == scene::NeighbourMethod::verlet;
+    const double records =
+        simd::record_fields + (plan.dimension == 3 && turns(plan) ? simd::spin_fields : 0);
+    const double doubles = (plan.order - 2) * dofs + (lists ? 2 * records : records) + 2 +
+                           (lists ? 0 : simd::force_stride(plan.dimension, plan.rotation));
+    const double state = 8.0 * doubles + 12;
     const double per_grain = state + (on_lattice(plan) ? 8 : 32);
     const double sites = on_lattice(plan) ? static_cast<double>(plan.columns) * plan.rows : 0;
     return static_cast<double>(needs.grains + needs.poured) * per_grain + sites * 28;
@@ -63,7 +68,7 @@ std::string describe(const scene::Scene& scene, const Needs& needs, const Derive
          fmt::format("about {:.3g} R_min at {:.3g} m/s", d.overlap_ratio, scene.md.max_speed));
     line("memory", fmt::format("about {:.3g} MB", memory_bytes(needs, plan) / 1e6));
     text += "\nPlan\n";
-    line("engine", "md, two dimensions");
+    line("engine", plan.dimension == 3 ? "md, three dimensions" : "md, two dimensions");
     line("neighbours", method_name(plan.neighbours));
     if (on_lattice(plan))
         line("lattice", fmt::format("{} x {} sites of {:.4g} x {:.4g} m, mask {}x{}", plan.columns, plan.rows,

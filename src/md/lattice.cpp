@@ -76,20 +76,22 @@ template <class Body> void Lattice::for_images(std::int32_t site, const Body& bo
 }
 
 void Lattice::leave(const State& state, simd::BinKernel kernel, std::size_t begin, std::size_t end) {
-    const simd::BinView bin{state.record.data(),
-                            next_site_.data(),
-                            lower_x_,
-                            lower_y_,
-                            site_x_,
-                            site_y_,
-                            columns_,
-                            rows_,
-                            row_stride_,
-                            origin_,
-                            relative_x_.data(),
-                            relative_y_.data(),
-                            edge_.data(),
-                            reach_};
+    simd::BinView bin{};
+    bin.records = state.record.data();
+    bin.site = next_site_.data();
+    bin.lower[0] = lower_x_;
+    bin.lower[1] = lower_y_;
+    bin.edge[0] = site_x_;
+    bin.edge[1] = site_y_;
+    bin.count[0] = columns_;
+    bin.count[1] = rows_;
+    bin.stride[0] = 1;
+    bin.stride[1] = row_stride_;
+    bin.origin = origin_;
+    bin.relative_x = relative_x_.data();
+    bin.relative_y = relative_y_.data();
+    bin.edge_site = edge_.data();
+    bin.reach = reach_;
     kernel(bin, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end));
     const bool periodic = period_x_ > 0 || period_y_ > 0;
     const auto empty = [&](std::size_t site) {
@@ -113,7 +115,7 @@ void Lattice::enter(const State& state, std::size_t begin, std::size_t end) {
             y_[site] = relative_y_[i];
             if (!moved) return;
             owner_[site] = static_cast<std::int32_t>(i);
-            if (many_radii_) radius_[site] = static_cast<float>(state.radius[i] * simd::lattice_margin);
+            if (many_radii_) radius_[site] = static_cast<float>(state.radius(i) * simd::lattice_margin);
         };
         put(static_cast<std::size_t>(next_site_[i]));
         if (periodic && edge_[i] != 0) for_images(next_site_[i], put);

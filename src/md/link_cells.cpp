@@ -9,9 +9,9 @@ namespace sandlane::md {
 
 namespace {
 
-// Cells of edge >= diameter; a periodic direction needs three, or one that holds everything.
-std::int32_t cell_count(double length, double edge, bool periodic) {
-    const double most = 4096; // finer grids than this cost more memory than they save time
+// Cells of edge >= diameter; a periodic direction needs three, or one that holds everything. Finer grids than
+// `most` cost more memory than they save time.
+std::int32_t cell_count(double length, double edge, bool periodic, double most) {
     const auto count = static_cast<std::int32_t>(std::clamp(std::floor(length / edge), 1.0, most));
     return periodic && count < 3 ? 1 : count;
 }
@@ -20,47 +20,52 @@ std::int32_t cell_count(double length, double edge, bool periodic) {
 
 LinkCells::LinkCells(const scene::Scene& scene, const Plan& plan, double radius_max, bool brute_force,
                      double skin)
-    : lower_x_(plan.lower.x), lower_y_(plan.lower.y), periodic_x_(scene.domain.periodic[0]),
-      periodic_y_(scene.domain.periodic[1]) {
-    const double width = plan.upper.x - plan.lower.x, height = plan.upper.y - plan.lower.y;
+    : dimension_(plan.dimension), periodic_(scene.domain.periodic) {
+    const Vec size = plan.upper - plan.lower;
+    const double lower[] = {plan.lower.x, plan.lower.y, plan.lower.z}, length[] = {size.x, size.y, size.z};
     const double edge =
         (2 * radius_max + skin) * (1 + 0x1p-30); // rounding of positions never exceeds the margin
-    if (!brute_force && edge > 0) {
-        columns_ = cell_count(width, edge, periodic_x_);
-        rows_ = cell_count(height, edge, periodic_y_);
+    const double most = dimension_ == 3 ? 512 : 4096;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d) {
+        if (!brute_force && edge > 0) count_[d] = cell_count(length[d], edge, periodic_[d], most);
+        lower_[d] = lower[d];
+        edge_[d] = length[d] / count_[d];
     }
-    cell_x_ = width / columns_;
-    cell_y_ = height / rows_;
-    start_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 2, 0);
+    start_.resize(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(rows()) + 2, 0);
 }
 
 std::size_t LinkCells::bytes() const {
-    return x_.bytes() + y_.bytes() + radius_.bytes() + owner_.bytes() + start_.bytes() + cell_.bytes() +
-           slot_.bytes();
+    std::size_t total = radius_.bytes() + owner_.bytes() + start_.bytes() + cell_.bytes() + slot_.bytes();
+    for (const Column<double>& column : position_) total += column.bytes();
+    return total;
+}
+
+simd::BinView LinkCells::bin_view(const State& state) {
+    simd::BinView bin{};
+    bin.records = state.record.data();
+    bin.site = cell_.data();
+    std::ptrdiff_t stride = 1;
+    for (std::size_t d = 0; d < 3; ++d) {
+        bin.lower[d] = lower_[d];
+        bin.edge[d] = edge_[d];
+        bin.count[d] = count_[d];
+        bin.stride[d] = stride;
+        stride *= count_[d];
+    }
+    return bin;
 }
 
 void LinkCells::build(const State& state, simd::BinKernel kernel, int threads) {
     const std::size_t n = state.size();
+    const auto dimensions = static_cast<std::size_t>(dimension_);
     if (cell_.size() != n) {
         cell_.resize(n);
         slot_.resize(n);
         owner_.resize(n + block_width, 0);
-        for (Column<double>* column : {&x_, &y_, &radius_}) column->resize(n + block_width, 0.0);
+        radius_.resize(n + block_width, 0.0);
+        for (std::size_t d = 0; d < dimensions; ++d) position_[d].resize(n + block_width, 0.0);
     }
-    const simd::BinView bin{state.record.data(),
-                            cell_.data(),
-                            lower_x_,
-                            lower_y_,
-                            cell_x_,
-                            cell_y_,
-                            columns_,
-                            rows_,
-                            columns_,
-                            0,
-                            nullptr,
-                            nullptr,
-                            nullptr,
-                            0};
+    const simd::BinView bin = bin_view(state);
     for_tiles(state.tiles(), threads, [&](std::size_t tile) {
         kernel(bin, static_cast<std::int64_t>(tile * tile_size),
                static_cast<std::int64_t>(std::min(n, (tile + 1) * tile_size)));
@@ -73,21 +78,29 @@ void LinkCells::build(const State& state, simd::BinKernel kernel, int threads) {
         fullest = std::max(fullest, start_[c]);
         start_[c] += start_[c - 1];
     }
-    most_around_ = std::min(n, 9 * static_cast<std::size_t>(fullest));
+    most_around_ =
+        std::min(n, (dimension_ == 3 ? std::size_t{27} : std::size_t{9}) * static_cast<std::size_t>(fullest));
     for (std::size_t i = 0; i < n; ++i) {
         const auto slot = static_cast<std::size_t>(start_[static_cast<std::size_t>(cell_[i]) + 1]++);
-        const double* record = state.record.data() + i * simd::record_fields;
-        x_[slot] = record[0];
-        y_[slot] = record[1];
-        radius_[slot] = state.radius[i];
+        const double* record = state.record_of(i);
+        for (std::size_t d = 0; d < dimensions; ++d) position_[d][slot] = record[d];
+        radius_[slot] = state.radius(i);
         owner_[slot] = static_cast<std::int32_t>(i);
         slot_[i] = static_cast<std::int32_t>(slot);
     }
 }
 
 simd::CellView LinkCells::view() const {
-    return {x_.data(), y_.data(), radius_.data(), owner_.data(), start_.data(),
-            columns_,  rows_,     periodic_x_,    periodic_y_};
+    simd::CellView view{};
+    for (std::size_t d = 0; d < 3; ++d) {
+        view.position[d] = position_[d].data();
+        view.count[d] = count_[d];
+        view.periodic[d] = periodic_[d];
+    }
+    view.radius = radius_.data();
+    view.owner = owner_.data();
+    view.start = start_.data();
+    return view;
 }
 
 } // namespace sandlane::md

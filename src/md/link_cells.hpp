@@ -7,6 +7,7 @@
 #include "md/state.hpp"
 #include "simd/tables.hpp"
 
+#include <array>
 #include <cstdint>
 
 namespace sandlane::md {
@@ -25,17 +26,21 @@ public:
     // Grains in the cells around a cell, at most.
     [[nodiscard]] std::size_t most_around() const { return most_around_; }
     [[nodiscard]] simd::CellView view() const;
-    [[nodiscard]] std::int32_t rows() const { return rows_; }
-    [[nodiscard]] std::int32_t columns() const { return columns_; }
+    // Rows of all layers.
+    [[nodiscard]] std::int32_t rows() const { return count_[1] * count_[2]; }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    Column<double> x_, y_, radius_;
+    [[nodiscard]] simd::BinView bin_view(const State& state);
+
+    std::array<Column<double>, 3> position_;
+    Column<double> radius_;
     Column<std::int32_t> owner_, start_, cell_, slot_;
     std::size_t most_around_ = 0;
-    std::int32_t columns_ = 1, rows_ = 1;
-    double lower_x_ = 0, lower_y_ = 0, cell_x_ = 1, cell_y_ = 1;
-    bool periodic_x_ = false, periodic_y_ = false;
+    int dimension_ = 2;
+    std::array<std::int32_t, 3> count_{1, 1, 1}; // columns, rows, layers
+    std::array<double, 3> lower_{}, edge_{1, 1, 1};
+    std::array<bool, 3> periodic_{};
 };
 
 } // namespace sandlane::md

@@ -12,29 +12,60 @@ namespace sandlane::md {
 namespace {
 
 struct ContactForce {
-    double x, y, tangential, overlap, energy;
+    Vec force;         // N, on the first grain
+    double tangential; // N: along the tangent in 2D, its magnitude in 3D
+    double overlap, energy;
 };
 
-template <class Normal, class Tangential>
-ContactForce contact_force(const laws::PairState<double>& s, const laws::PairCoefficients<double>& c,
-                           const double* remembered) {
-    double memory[Tangential::memory + 1];
-    for (int m = 0; m < Tangential::memory; ++m)
-        memory[m] = remembered != nullptr ? remembered[m] : laws::no_contact;
-    const auto f = laws::pair_force<Normal, Tangential, double>(s, c, memory, 0.0);
-    const double energy = Normal::energy(
-        laws::NormalInput<double>{f.overlap, 0, c.elastic, c.dissipative, s.inverse_reduced_radius});
-    return {f.x, f.y, f.tangential, f.overlap, energy + Tangential::energy(c.tangential_stiffness, memory)};
+using Relative = laws::SpatialState<double>;
+using Coefficients = laws::PairCoefficients<double>;
+
+ContactForce evaluate(const laws::PairForce<double>& f) {
+    return {{f.x, f.y, 0}, f.tangential, f.overlap, 0};
+}
+ContactForce evaluate(const laws::SpatialForce<double>& f) {
+    const Vec turning{f.turning.x, f.turning.y, f.turning.z};
+    return {{f.force.x, f.force.y, f.force.z}, norm(turning), f.overlap, 0};
 }
 
-using ContactKernel = ContactForce (*)(const laws::PairState<double>&, const laws::PairCoefficients<double>&,
-                                       const double*);
+// `remembered`: what the contact holds, or null if it is new.
+template <class Normal, class Tangential, int dimension, bool couples>
+ContactForce contact_force(const Relative& s, const Coefficients& c, const double* remembered) {
+    constexpr int numbers = laws::memory_of<Normal, Tangential, dimension>;
+    double memory[numbers + 1] = {laws::no_contact};
+    if (remembered != nullptr) std::copy_n(remembered, numbers, memory);
+    ContactForce f;
+    if constexpr (dimension == 3) {
+        f = evaluate(laws::pair_force<Normal, Tangential, couples>(s, c, memory, 0.0));
+    } else {
+        const laws::PairState<double> plane{s.d.x,        s.d.y,           s.dv.x,     s.dv.y,     s.spin.z,
+                                            s.radius_sum, s.inverse_radii, s.turn.z,   s.differ.z, s.radius,
+                                            s.square_difference};
+        f = evaluate(laws::pair_force<Normal, Tangential, couples>(plane, c, memory, 0.0));
+    }
+    f.energy = laws::elastic_energy<Normal, Tangential, dimension>(f.overlap, s.inverse_radii, c, memory);
+    return f;
+}
 
-template <class Normal> ContactKernel with_tangential(int tangential) {
+using ContactKernel = ContactForce (*)(const Relative&, const Coefficients&, const double*);
+
+template <class Normal, class Tangential, int dimension> ContactKernel with_couples(const Plan& plan) {
+    if constexpr (!laws::exists_in<Tangential, dimension>) {
+        return nullptr;
+    } else {
+        if constexpr (Tangential::needs_spin)
+            if (has_couples(plan)) return contact_force<Normal, Tangential, dimension, true>;
+        return contact_force<Normal, Tangential, dimension, false>;
+    }
+}
+
+template <class Normal> ContactKernel with_tangential(const Plan& plan) {
     int position = 0;
     ContactKernel kernel = nullptr;
 #define TANGENTIAL(type, choice, name)                                                                       \
-    if (position++ == tangential) kernel = contact_force<Normal, laws::type>;
+    if (position++ == plan.tangential)                                                                       \
+        kernel = plan.dimension == 3 ? with_couples<Normal, laws::type, 3>(plan)                             \
+                                     : with_couples<Normal, laws::type, 2>(plan);
 #include "laws/laws.def"
     return kernel;
 }
@@ -43,7 +74,7 @@ ContactKernel contact_kernel(const Plan& plan) {
     int position = 0;
     ContactKernel kernel = nullptr;
 #define NORMAL(type, choice, name, key)                                                                      \
-    if (position++ == plan.normal) kernel = with_tangential<laws::type>(plan.tangential);
+    if (position++ == plan.normal) kernel = with_tangential<laws::type>(plan);
 #include "laws/laws.def"
     return kernel;
 }
@@ -68,57 +99,56 @@ public:
         for_pairs(body);
         if (walls_.empty()) return;
         for (std::size_t i = 0; i < state_.size(); ++i)
-            walls_.for_touching(centre(i), state_.radius[i],
+            walls_.for_touching(state_.position(i), state_.radius(i),
                                 [&](std::size_t e, const WallContact& c) { body(with_wall(i, e, c)); });
     }
 
 private:
     template <class Body> void for_pairs(const Body& body) const {
-        const auto position = [&](std::size_t i) { return centre(i); };
+        const auto position = [&](std::size_t i) { return state_.position(i); };
+        double memory[laws::most_memory];
         for_near_pairs(scene_, state_, position, [&](std::size_t i, std::size_t j, Vec d) {
-            const double reach = state_.radius[i] + state_.radius[j];
+            const double reach = state_.radius(i) + state_.radius(j);
             if (!(dot(d, d) < reach * reach)) return;
-            const laws::PairState<double> s{d.x,
-                                            d.y,
-                                            (state_.value(j, 0, 1) - state_.value(i, 0, 1)) * rate_,
-                                            (state_.value(j, 1, 1) - state_.value(i, 1, 1)) * rate_,
-                                            spin(i) + spin(j),
-                                            reach,
-                                            state_.inverse_radius[i] + state_.inverse_radius[j]};
-            const ContactForce f = kernel_(s, coefficients_of(state_.material[i], state_.material[j]),
-                                           memories_.pairs.find(state_.id[i], state_.id[j]));
+            const Vec dv = rate_ * (state_.shift(j) - state_.shift(i));
+            const double ri = state_.radius(i), rj = state_.radius(j);
+            const Relative s{vector(d),
+                             vector(dv),
+                             vector(spin(i) + spin(j)),
+                             vector(rate_ * (state_.turn(i) + state_.turn(j))),
+                             reach,
+                             state_.inverse_radius(i) + state_.inverse_radius(j),
+                             vector(rate_ * (state_.turn(i) - state_.turn(j))),
+                             ri,
+                             ri * ri - rj * rj};
+            const bool known = memories_.pairs.find(state_.id[i], state_.id[j], memory);
+            const ContactForce f =
+                kernel_(s, coefficients_of(state_.material[i], state_.material[j]), known ? memory : nullptr);
             body(Found{i, j, (1 / norm(d)) * d, f, nullptr, {}, {}});
         });
     }
 
     [[nodiscard]] Found with_wall(std::size_t i, std::size_t e, const WallContact& c) const {
-        const WallElement& element = walls_.elements()[e];
-        const laws::PairState<double> s{c.distance * c.direction.x,
-                                        c.distance * c.direction.y,
-                                        c.velocity.x - state_.value(i, 0, 1) * rate_,
-                                        c.velocity.y - state_.value(i, 1, 1) * rate_,
-                                        spin(i) + c.spin,
-                                        state_.radius[i] + c.radius,
-                                        state_.inverse_radius[i] + c.inverse_radius};
+        const WallElement& element = walls_.element(e);
+        const Vec n = c.direction, wall_spin{0, 0, c.spin};
+        const Relative s{vector(c.distance * n),      vector(c.velocity - rate_ * state_.shift(i)),
+                         vector(spin(i) + wall_spin), vector(rate_ * state_.turn(i) + c.angular_velocity),
+                         state_.radius(i) + c.radius, state_.inverse_radius(i) + c.inverse_radius};
         const ContactForce f = kernel_(s, coefficients_of(state_.material[i], element.material),
                                        memories_.walls.find_wall(state_.id[i], static_cast<std::int64_t>(e)));
-        const Vec n = c.direction;
         return {i,
                 i,
                 n,
                 f,
                 &element,
-                centre(i) + (c.distance - c.radius) * n,
+                state_.position(i) + (c.distance - c.radius) * n,
                 c.velocity + c.spin * Vec{n.y, -n.x, 0}};
     }
 
-    [[nodiscard]] Vec centre(std::size_t i) const {
-        return {state_.value(i, 0, 0), state_.value(i, 1, 0), 0};
-    }
-    [[nodiscard]] double spin(std::size_t i) const {
-        return state_.spin() ? state_.radius[i] * state_.value(i, 2, 1) * rate_ : 0.0;
-    }
-    [[nodiscard]] laws::PairCoefficients<double> coefficients_of(int a, int b) const {
+    static Vector<double> vector(Vec v) { return {v.x, v.y, v.z}; }
+    // R omega
+    [[nodiscard]] Vec spin(std::size_t i) const { return state_.radius(i) * rate_ * state_.turn(i); }
+    [[nodiscard]] Coefficients coefficients_of(int a, int b) const {
         const int materials = static_cast<int>(scene_.materials.size());
         return laws::coefficients_from<double>(coefficients_.data() +
                                                (a * materials + b) * laws::pair_coefficients);
@@ -130,7 +160,7 @@ private:
     const std::vector<double>& coefficients_;
     const ContactMemories& memories_;
     ContactKernel kernel_;
-    double rate_; // 1/s, from Nordsieck-scaled to physical velocities
+    double rate_; // 1/s, from displacements per step to velocities
 };
 
 struct GrainEnergy {
@@ -139,15 +169,18 @@ struct GrainEnergy {
 
 GrainEnergy energies_of(const scene::Scene& scene, const Plan& plan, const State& state, std::size_t i) {
     const double rate = 1 / plan.dt, m = state.mass[i];
-    const double vx = state.value(i, 0, 1) * rate, vy = state.value(i, 1, 1) * rate;
-    const Vec g = scene.domain.gravity, size = plan.upper - plan.lower;
-    const double x = state.value(i, 0, 0) - plan.lower.x + state.image_x[i] * size.x;
-    const double y = state.value(i, 1, 0) - plan.lower.y + state.image_y[i] * size.y;
-    GrainEnergy e{0.5 * m * (vx * vx + vy * vy), 0, -m * (g.x * x + g.y * y)};
-    if (!state.spin()) return e;
-    const double omega = state.value(i, 2, 1) * rate, inertia = state.radius[i] / state.spin_factor[i];
-    e.rotational = 0.5 * inertia * omega * omega;
-    e.potential -= inertia * g.z * state.value(i, 2, 0);
+    const Vec v = rate * state.shift(i), size = plan.upper - plan.lower;
+    const Vec g{scene.domain.gravity.x, scene.domain.gravity.y,
+                plan.dimension == 3 ? scene.domain.gravity.z : 0.0};
+    const Vec unwrapped =
+        state.position(i) - plan.lower +
+        Vec{state.images(i, 0) * size.x, state.images(i, 1) * size.y, state.images(i, 2) * size.z};
+    GrainEnergy e{0.5 * m * dot(v, v), 0, -m * dot(g, unwrapped)};
+    if (!state.turns()) return e;
+    const Vec omega = rate * state.turn(i);
+    const double inertia = plan.inertia_factor * m * state.radius(i) * state.radius(i);
+    e.rotational = 0.5 * inertia * dot(omega, omega);
+    if (plan.dimension == 2) e.potential -= inertia * scene.domain.gravity.z * state.angle(i);
     return e;
 }
 
@@ -158,20 +191,18 @@ void add_grains(const scene::Scene& scene, const Plan& plan, const State& state,
         o.kinetic += e.kinetic;
         o.rotational += e.rotational;
         o.potential += e.potential;
-        const double vx = state.value(i, 0, 1) * rate, vy = state.value(i, 1, 1) * rate;
-        o.momentum_x += state.mass[i] * vx;
-        o.momentum_y += state.mass[i] * vy;
-        o.largest_speed = std::max(o.largest_speed, std::hypot(vx, vy));
+        const Vec v = rate * state.shift(i);
+        o.momentum = o.momentum + state.mass[i] * v;
+        o.largest_speed = std::max(o.largest_speed, norm(v));
     }
 }
 
 // The wall feels the opposite of the grain's force.
 void add_wall_load(const Walls& walls, const Found& c, WallLoad& load) {
-    const Vec arm = c.wall_point - walls.pivot(*c.element);
-    load.force_x -= c.force.x;
-    load.force_y -= c.force.y;
-    load.torque -= arm.x * c.force.y - arm.y * c.force.x;
-    load.power += c.force.x * c.wall_velocity.x + c.force.y * c.wall_velocity.y;
+    const Vec arm = c.wall_point - walls.pivot(*c.element), force = c.force.force;
+    load.force = load.force - force;
+    load.torque = load.torque - cross(arm, force);
+    load.power += dot(force, c.wall_velocity);
 }
 
 } // namespace
@@ -183,19 +214,21 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
     o.pressure.assign(state.size(), 0.0);
     o.walls.resize(scene.walls.size());
     add_grains(scene, plan, state, o);
-    // Half the trace of -(1/V) sum l f with l from centre to contact, V = pi R^2 (8.1): R (-f.n)/(2 pi R^2).
+    // Trace of -(1/V) sum l f over the dimension, l from the centre to the contact: R (-f.n)/(D V)
+    // (docs/physics.md 11), V = pi R^2 or 4/3 pi R^3.
     const auto press = [&](std::size_t i, double inward) {
-        o.pressure[i] += inward / (2 * std::numbers::pi * state.radius[i]);
+        const double r = state.radius(i), area = 2 * std::numbers::pi * r;
+        o.pressure[i] += inward / (plan.dimension == 3 ? 2 * r * area : area);
     };
     Search(scene, plan, state, walls, coefficients, memories).for_contacts([&](const Found& c) {
-        const double inward = -(c.force.x * c.normal.x + c.force.y * c.normal.y);
+        const double inward = -dot(c.force.force, c.normal);
         o.elastic += c.force.energy;
         press(c.first, inward);
-        double smaller = state.radius[c.first];
+        double smaller = state.radius(c.first);
         if (c.element == nullptr) {
             ++o.contacts;
             press(c.second, inward);
-            smaller = std::min(smaller, state.radius[c.second]);
+            smaller = std::min(smaller, state.radius(c.second));
         } else {
             ++o.wall_contacts;
             add_wall_load(walls, c, o.walls[static_cast<std::size_t>(c.element->wall)]);
@@ -214,7 +247,7 @@ analysis::Contacts contacts(const scene::Scene& scene, const Plan& plan, const S
         to.i = static_cast<std::int32_t>(c.first);
         to.normal = c.normal;
         to.overlap = c.force.overlap;
-        to.force = {c.force.x, c.force.y, 0};
+        to.force = c.force.force;
         to.tangential = c.force.tangential;
         if (c.element != nullptr) {
             to.wall = c.element->wall;
@@ -222,8 +255,7 @@ analysis::Contacts contacts(const scene::Scene& scene, const Plan& plan, const S
             return;
         }
         to.j = static_cast<std::int32_t>(c.second);
-        const Vec centre{state.value(c.first, 0, 0), state.value(c.first, 1, 0), 0};
-        to.point = centre + (state.radius[c.first] - 0.5 * c.force.overlap) * c.normal;
+        to.point = state.position(c.first) + (state.radius(c.first) - 0.5 * c.force.overlap) * c.normal;
     });
     return all;
 }

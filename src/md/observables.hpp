@@ -15,20 +15,21 @@ namespace sandlane::md {
 
 // What the grains do to one wall of the scene.
 struct WallLoad {
-    double force_x = 0, force_y = 0; // N
-    double torque = 0;               // N m, about Walls::pivot
-    double power = 0;                // W, given by the wall to the grains
+    Vec force;        // N
+    Vec torque;       // N m, about Walls::pivot; along z in 2D
+    double power = 0; // W, given by the wall to the grains
 };
 
 struct Observables {
     double kinetic = 0, rotational = 0, elastic = 0; // J
     double potential = 0;                            // J, of unwrapped positions: no jump at a periodic side
-    double momentum_x = 0, momentum_y = 0;           // kg m/s
+    Vec momentum;                                    // kg m/s
     double largest_overlap = 0;                      // of the smaller radius
     double largest_speed = 0;                        // m/s
     std::int64_t contacts = 0, wall_contacts = 0, grains = 0;
-    std::vector<double> pressure; // per storage index: trace of the contact stress over two (8.1)
-    std::vector<WallLoad> walls;  // per wall of the scene
+    // Per storage index: trace of the contact stress over the dimension (docs/physics.md 11), N/m or Pa.
+    std::vector<double> pressure;
+    std::vector<WallLoad> walls; // per wall of the scene
 
     [[nodiscard]] double energy() const { return kinetic + rotational + elastic + potential; } // J
 };

@@ -10,8 +10,9 @@ namespace sandlane::md {
 
 namespace {
 
-// In units of R_min. A wider skin means fewer builds and longer lists; both minima are flat.
-constexpr double outer_skin = 0.4, near_skin = 0.04;
+// In units of R_min, in the plane and in space. A wider skin means fewer builds and longer lists; the minima
+// are flat.
+constexpr double outer_skin[] = {0.4, 0.2}, near_skin[] = {0.04, 0.03};
 // Rounding of positions and distances never exceeds this part of a skin.
 constexpr double safety = 1 - 1e-9;
 
@@ -21,13 +22,28 @@ double nearest(double d, double half, double period) {
     return d;
 }
 
+double in_units(const double (&skins)[2], const Plan& plan, const Needs& needs) {
+    return skins[plan.dimension - 2] * needs.radius_min;
+}
+
 } // namespace
 
 PairLists::PairLists(const scene::Scene& scene, const Plan& plan, const Needs& needs)
-    : cells_(scene, plan, needs.radius_max, false, outer_skin * needs.radius_min),
-      skin_(outer_skin * needs.radius_min), near_skin_(near_skin * needs.radius_min), fields_(plan.memory),
-      remembered_(plan.memory) {
+    : cells_(scene, plan, needs.radius_max, false, in_units(outer_skin, plan, needs)), lower_(plan.lower),
+      upper_(plan.upper), skin_(in_units(outer_skin, plan, needs)),
+      near_skin_(in_units(near_skin, plan, needs)), fields_(plan.memory),
+      remembered_(plan.memory, plan.odd_memory) {
     remembered_.index();
+}
+
+void PairLists::Memory::clear(std::size_t pairs, std::size_t row) {
+    rows.resize(pairs * row);
+    touched.assign(pairs / 8 + 1, 0);
+}
+
+void PairLists::Memory::set(std::size_t pair, const double* values, std::size_t count, std::size_t row) {
+    std::copy_n(values, count, rows.data() + pair * row);
+    touched[pair / 8] = static_cast<std::uint8_t>(touched[pair / 8] | 1U << (pair % 8));
 }
 
 void PairLists::invalidate(const State& state) {
@@ -42,24 +58,22 @@ void PairLists::adopt(ContactMemory memory) {
 
 ContactMemory PairLists::memory(const State& state) const {
     if (stale_) return remembered_;
-    ContactMemory result(fields_);
+    ContactMemory result = remembered_.empty_copy();
     for (const Tile& t : tiles_)
         for (std::size_t n = 0; n < static_cast<std::size_t>(t.near_count) && fields_ > 0; ++n)
-            if (t.memory[n] < 0.5 * laws::no_contact)
+            if (t.memory.touches(n))
                 result.add(state.id[static_cast<std::size_t>(t.near_i[n])],
-                           state.id[static_cast<std::size_t>(t.near_j[n])], t.memory.data() + n,
-                           static_cast<std::ptrdiff_t>(t.stride()));
+                           state.id[static_cast<std::size_t>(t.near_j[n])], t.memory.rows.data() + n * row());
     result.index();
     return result;
 }
 
 std::size_t PairLists::bytes() const {
-    std::size_t total = cells_.bytes() + built_x_.bytes() + built_y_.bytes();
+    std::size_t total = cells_.bytes() + built_.bytes();
     for (const Tile& t : tiles_)
-        total += sizeof(std::int32_t) *
-                     (t.i.capacity() + t.j.capacity() + t.near_i.capacity() + t.near_j.capacity() +
-                      t.position.capacity() + t.last_position.capacity()) +
-                 sizeof(double) * (t.memory.capacity() + t.last_memory.capacity());
+        total += sizeof(std::int32_t) * (t.i.capacity() + t.j.capacity() + t.near_i.capacity() +
+                                         t.near_j.capacity() + t.position.capacity()) +
+                 sizeof(double) * t.memory.rows.capacity() + t.memory.touched.capacity();
     return total;
 }
 
@@ -70,11 +84,12 @@ simd::TileList PairLists::tile(std::size_t index, const State& state) {
             t.near_count,
             static_cast<std::int32_t>(index * tile_size),
             static_cast<std::int32_t>(std::min(state.size(), (index + 1) * tile_size)),
-            t.memory.data(),
-            static_cast<std::ptrdiff_t>(t.stride())};
+            t.images,
+            t.memory.rows.data(),
+            t.memory.touched.data()};
 }
 
-void PairLists::update(const State& state, const simd::PairView& pairs, const simd::MdKernels& kernels,
+void PairLists::update(const State& state, const simd::PairView& pairs, const simd::DimensionKernels& kernels,
                        int threads) {
     if (!stale_ && near_budget_ >= 0) return;
     const bool rebuild = stale_ || !outer_valid(state, pairs, threads);
@@ -88,13 +103,17 @@ void PairLists::update(const State& state, const simd::PairView& pairs, const si
 // Two grains that were a skin apart can have met when both moved by half of it. The near list adds its own
 // skin.
 bool PairLists::outer_valid(const State& state, const simd::PairView& pairs, int threads) {
+    const auto dimension = static_cast<std::size_t>(state.dimension);
     for_tiles(tiles_.size(), threads, [&](std::size_t index) {
         double largest = 0;
         for (std::size_t i = index * tile_size; i < std::min(state.size(), (index + 1) * tile_size); ++i) {
-            const double* r = pairs.records + i * simd::record_fields;
-            const double dx = nearest(r[0] - built_x_[i], pairs.half_x, pairs.period_x);
-            const double dy = nearest(r[1] - built_y_[i], pairs.half_y, pairs.period_y);
-            largest = std::max(largest, dx * dx + dy * dy);
+            double square = 0;
+            for (std::size_t d = 0; d < dimension; ++d) {
+                const double x = nearest(state.record_of(i)[d] - built_[i * dimension + d], pairs.half[d],
+                                         pairs.period[d]);
+                square += x * x;
+            }
+            largest = std::max(largest, square);
         }
         tiles_[index].largest_square = largest;
     });
@@ -103,31 +122,30 @@ bool PairLists::outer_valid(const State& state, const simd::PairView& pairs, int
     return std::sqrt(largest) <= 0.5 * safety * (skin_ - near_skin_);
 }
 
-void PairLists::build(const State& state, const simd::PairView& pairs, const simd::MdKernels& kernels,
+void PairLists::build(const State& state, const simd::PairView& pairs, const simd::DimensionKernels& kernels,
                       int threads) {
     ++builds_;
     stale_ = false;
     tiles_.resize(state.tiles());
-    built_x_.resize(state.size());
-    built_y_.resize(state.size());
+    built_.resize(state.size() * static_cast<std::size_t>(state.dimension));
     cells_.build(state, kernels.bin, threads);
     for_tiles_dynamic(tiles_.size(), threads,
                       [&](std::size_t index) { build_tile(index, state, pairs, kernels); });
 }
 
 void PairLists::build_tile(std::size_t index, const State& state, const simd::PairView& pairs,
-                           const simd::MdKernels& kernels) {
+                           const simd::DimensionKernels& kernels) {
     Tile& t = tiles_[index];
     t.i.clear();
     t.j.clear();
     const auto begin = static_cast<std::int32_t>(index * tile_size);
     const auto end = static_cast<std::int32_t>(std::min(state.size(), (index + 1) * tile_size));
+    const auto dimension = static_cast<std::size_t>(state.dimension);
     const simd::CellView view = cells_.view();
     std::vector<std::int32_t> found(cells_.most_around() + block_width);
     for (std::int32_t i = begin; i < end; ++i) {
         const auto grain = static_cast<std::size_t>(i);
-        built_x_[grain] = pairs.records[grain * simd::record_fields];
-        built_y_[grain] = pairs.records[grain * simd::record_fields + 1];
+        std::copy_n(state.record_of(grain), dimension, built_.data() + grain * dimension);
         const std::int32_t count = kernels.candidates(view, pairs, cells_.cell_of(grain),
                                                       cells_.slot_of(grain), skin_, found.data());
         const auto last = std::remove_if(found.begin(), found.begin() + count,
@@ -137,59 +155,74 @@ void PairLists::build_tile(std::size_t index, const State& state, const simd::Pa
         t.i.resize(t.j.size(), i);
     }
     t.count = static_cast<std::int32_t>(t.i.size());
+    t.images = may_cross(t, state, pairs);
     for (std::vector<std::int32_t>* list : {&t.i, &t.j}) list->resize(list->size() + block_width, begin);
-    for (std::vector<std::int32_t>* list : {&t.near_i, &t.near_j, &t.position}) list->resize(t.i.size());
-    t.memory.resize(t.i.size() * static_cast<std::size_t>(fields_));
 }
 
-void PairLists::refresh(const State& state, const simd::PairView& pairs, const simd::MdKernels& kernels,
-                        int threads, bool rebuilt) {
+// Whether while the list lasts a pair may be nearest across a periodic side: it is now, or one of its grains
+// may come across.
+bool PairLists::may_cross(const Tile& t, const State& state, const simd::PairView& pairs) const {
+    const double lower[] = {lower_.x, lower_.y, lower_.z}, upper[] = {upper_.x, upper_.y, upper_.z};
+    for (int d = 0; d < state.dimension; ++d) {
+        if (!(pairs.period[d] > 0)) continue;
+        const auto x = [&](std::int32_t i) { return state.record_of(static_cast<std::size_t>(i))[d]; };
+        const auto beside = [&](std::int32_t i) {
+            return x(i) < lower[d] + skin_ || x(i) > upper[d] - skin_;
+        };
+        for (std::size_t n = 0; n < static_cast<std::size_t>(t.count); ++n)
+            if (std::abs(x(t.j[n]) - x(t.i[n])) > pairs.half[d] || beside(t.i[n]) || beside(t.j[n]))
+                return true;
+    }
+    return false;
+}
+
+void PairLists::refresh(const State& state, const simd::PairView& pairs,
+                        const simd::DimensionKernels& kernels, int threads, bool rebuilt) {
     ++refreshes_;
     near_budget_ = 0.5 * safety * near_skin_;
-    for_tiles(tiles_.size(), threads, [&](std::size_t index) {
-        Tile& t = tiles_[index];
-        if (fields_ > 0 && !rebuilt) {
-            t.last_position = t.position;
-            t.last_memory = t.memory;
-            t.last_near_count = t.near_count;
-        }
-        t.near_count = kernels.near_pairs(pairs, t.i.data(), t.j.data(), t.count, near_skin_, t.near_i.data(),
-                                          t.near_j.data(), t.position.data());
-        // The tile kernel loads whole blocks of existing grains.
-        const auto end = static_cast<std::size_t>(t.near_count);
-        std::fill_n(t.near_i.data() + end, block_width, static_cast<std::int32_t>(index * tile_size));
-        std::fill_n(t.near_j.data() + end, block_width, static_cast<std::int32_t>(index * tile_size));
-        if (fields_ == 0) return;
-        std::fill(t.memory.begin(), t.memory.end(), laws::no_contact);
-        if (rebuilt)
-            recall_memory(t, state);
-        else
-            carry_memory(t);
-    });
+    for_tiles(tiles_.size(), threads,
+              [&](std::size_t index) { refresh_tile(index, state, pairs, kernels, rebuilt); });
 }
 
-// From the near pairs before to those now: both ascend in their position in the outer list.
-void PairLists::carry_memory(Tile& t) const {
-    std::int32_t before = 0;
-    for (std::int32_t now = 0; now < t.near_count; ++now) {
-        const std::int32_t position = t.position[static_cast<std::size_t>(now)];
-        while (before < t.last_near_count && t.last_position[static_cast<std::size_t>(before)] < position)
-            ++before;
-        if (before == t.last_near_count) return;
-        if (t.last_position[static_cast<std::size_t>(before)] != position) continue;
-        for (std::size_t f = 0; f < static_cast<std::size_t>(fields_); ++f)
-            t.memory[f * t.stride() + static_cast<std::size_t>(now)] =
-                t.last_memory[f * t.stride() + static_cast<std::size_t>(before)];
+void PairLists::refresh_tile(std::size_t index, const State& state, const simd::PairView& pairs,
+                             const simd::DimensionKernels& kernels, bool rebuilt) {
+    Tile& t = tiles_[index];
+    const auto first = static_cast<std::int32_t>(index * tile_size);
+    // Found into scratch of the size of the outer list: near lists keep no more than they need.
+    thread_local std::vector<std::int32_t> near_i, near_j, position;
+    for (std::vector<std::int32_t>* list : {&near_i, &near_j, &position})
+        if (list->size() < t.i.size()) list->resize(t.i.size());
+    t.near_count = kernels.near_pairs(pairs, t.i.data(), t.j.data(), t.count, near_skin_, near_i.data(),
+                                      near_j.data(), position.data());
+    const auto count = static_cast<std::size_t>(t.near_count);
+    // The tile kernel loads whole blocks of existing grains.
+    std::fill_n(near_i.data() + count, block_width, first);
+    std::fill_n(near_j.data() + count, block_width, first);
+    t.near_i.assign(near_i.data(), near_i.data() + count + block_width);
+    t.near_j.assign(near_j.data(), near_j.data() + count + block_width);
+    if (fields_ == 0) return;
+    Memory before;
+    std::swap(before, t.memory);
+    std::vector<std::int32_t> last_position(position.data(), position.data() + count);
+    std::swap(last_position, t.position);
+    t.memory.clear(count + block_width, row());
+    if (rebuilt) return recall_memory(t, state);
+    // From the near pairs before to those now: both ascend in their position in the outer list.
+    std::size_t old = 0;
+    for (std::size_t now = 0; now < count; ++now) {
+        while (old < last_position.size() && last_position[old] < t.position[now]) ++old;
+        if (old == last_position.size()) return;
+        if (last_position[old] == t.position[now] && before.touches(old))
+            t.memory.set(now, before.rows.data() + old * row(), row(), row());
     }
 }
 
 void PairLists::recall_memory(Tile& t, const State& state) const {
-    for (std::size_t n = 0; n < static_cast<std::size_t>(t.near_count) && !remembered_.empty(); ++n) {
-        const double* values = remembered_.find(state.id[static_cast<std::size_t>(t.near_i[n])],
-                                                state.id[static_cast<std::size_t>(t.near_j[n])]);
-        for (std::size_t f = 0; f < static_cast<std::size_t>(fields_) && values != nullptr; ++f)
-            t.memory[f * t.stride() + n] = values[f];
-    }
+    std::vector<double> values(row());
+    for (std::size_t n = 0; n < static_cast<std::size_t>(t.near_count) && !remembered_.empty(); ++n)
+        if (remembered_.find(state.id[static_cast<std::size_t>(t.near_i[n])],
+                             state.id[static_cast<std::size_t>(t.near_j[n])], values.data()))
+            t.memory.set(n, values.data(), static_cast<std::size_t>(fields_), row());
 }
 
 } // namespace sandlane::md

@@ -27,7 +27,8 @@ public:
     [[nodiscard]] ContactMemory memory(const State& state) const;
     void adopt(ContactMemory memory);
     // Before forces at the positions of the records: lists hold every pair that touches, afterwards.
-    void update(const State& state, const simd::PairView& pairs, const simd::MdKernels& kernels, int threads);
+    void update(const State& state, const simd::PairView& pairs, const simd::DimensionKernels& kernels,
+                int threads);
 
     [[nodiscard]] simd::TileList tile(std::size_t index, const State& state);
     [[nodiscard]] std::size_t bytes() const;
@@ -35,29 +36,44 @@ public:
     [[nodiscard]] std::int64_t refreshes() const { return refreshes_; }
 
 private:
+    // What contacts remember, beside a list: rows of numbers, and a bit for each pair that touches.
+    struct Memory {
+        std::vector<double> rows;
+        std::vector<std::uint8_t> touched;
+
+        void clear(std::size_t pairs, std::size_t row);
+        [[nodiscard]] bool touches(std::size_t pair) const {
+            return (touched[pair / 8] >> (pair % 8) & 1) != 0;
+        }
+        void set(std::size_t pair, const double* values, std::size_t count, std::size_t row);
+    };
     struct Tile {
         // Pairs of gap below the skin, and those of gap below the near skin; each padded by a block.
         std::vector<std::int32_t> i, j, near_i, near_j;
-        std::vector<std::int32_t> position, last_position; // of near pairs in the outer list, now and before
-        std::vector<double> memory, last_memory;           // [field][near pair]
-        std::int32_t count = 0, near_count = 0, last_near_count = 0;
-
-        [[nodiscard]] std::size_t stride() const { return near_i.size(); }
+        std::vector<std::int32_t> position; // of near pairs in the outer list
+        Memory memory;
+        std::int32_t count = 0, near_count = 0;
+        bool images = false;
         double largest_square = 0; // of the displacements since the last build
     };
 
     [[nodiscard]] bool outer_valid(const State& state, const simd::PairView& pairs, int threads);
-    void build(const State& state, const simd::PairView& pairs, const simd::MdKernels& kernels, int threads);
+    void build(const State& state, const simd::PairView& pairs, const simd::DimensionKernels& kernels,
+               int threads);
     void build_tile(std::size_t index, const State& state, const simd::PairView& pairs,
-                    const simd::MdKernels& kernels);
-    void refresh(const State& state, const simd::PairView& pairs, const simd::MdKernels& kernels, int threads,
-                 bool rebuilt);
-    void carry_memory(Tile& tile) const;
+                    const simd::DimensionKernels& kernels);
+    [[nodiscard]] bool may_cross(const Tile& tile, const State& state, const simd::PairView& pairs) const;
+    void refresh(const State& state, const simd::PairView& pairs, const simd::DimensionKernels& kernels,
+                 int threads, bool rebuilt);
+    void refresh_tile(std::size_t index, const State& state, const simd::PairView& pairs,
+                      const simd::DimensionKernels& kernels, bool rebuilt);
     void recall_memory(Tile& tile, const State& state) const;
+    [[nodiscard]] std::size_t row() const { return static_cast<std::size_t>(simd::memory_row(fields_)); }
 
     LinkCells cells_;
     std::vector<Tile> tiles_;
-    Column<double> built_x_, built_y_; // positions at the last build
+    Column<double> built_; // positions at the last build, [grain][dimension]
+    Vec lower_, upper_;
     double skin_ = 0, near_skin_ = 0, near_budget_ = 0;
     bool stale_ = true;
     int fields_ = 0;           // numbers that a contact remembers

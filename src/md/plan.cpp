@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 namespace sandlane::md {
 
@@ -66,9 +67,40 @@ template <class Body> auto with_normal_law(const Scene& scene, const Body& body)
     return body(LawTraits<laws::Viscoelastic>{});
 }
 
-double area(const Scene& scene) {
+// Area or volume of a grain and of the domain.
+double content(const Scene& scene, double radius) {
+    const double area = std::numbers::pi * radius * radius;
+    return scene.domain.dimension == 3 ? 4.0 / 3.0 * area * radius : area;
+}
+double content(const Scene& scene) {
     const Vec size = scene.domain.upper - scene.domain.lower;
-    return size.x * size.y;
+    return size.x * size.y * (scene.domain.dimension == 3 ? size.z : 1.0);
+}
+
+// Calls body<Normal, Tangential>() with the laws at these positions of laws.def.
+template <class Normal, class Body> auto with_tangential_law(int tangential, const Body& body) {
+    int position = 0;
+#define TANGENTIAL(type, choice, name)                                                                       \
+    if (position++ == tangential) return body(std::type_identity<Normal>{}, std::type_identity<laws::type>{});
+#include "laws/laws.def"
+    return body(std::type_identity<Normal>{}, std::type_identity<laws::Frictionless>{});
+}
+template <class Body> auto with_laws(const Plan& plan, const Body& body) {
+    int position = 0;
+#define NORMAL(type, choice, name, key)                                                                      \
+    if (position++ == plan.normal) return with_tangential_law<laws::type>(plan.tangential, body);
+#include "laws/laws.def"
+    return with_tangential_law<laws::LinearDashpot>(plan.tangential, body);
+}
+
+// What contacts of the plan's laws remember.
+void set_memory(Plan& plan) {
+    with_laws(plan, [&]<class Normal, class Tangential>(std::type_identity<Normal>,
+                                                        std::type_identity<Tangential>) {
+        const bool space = plan.dimension == 3;
+        plan.odd_memory = space ? laws::tangential_memory<Tangential, 3> : 0;
+        plan.memory = space ? laws::memory_of<Normal, Tangential, 3> : laws::memory_of<Normal, Tangential, 2>;
+    });
 }
 
 } // namespace
@@ -85,21 +117,35 @@ std::vector<double> pair_table(const Scene& scene) {
             for (std::size_t b = 0; b < n; ++b) {
                 const scene::Material &p = scene.materials[a], &q = scene.materials[b];
                 double* c = table.data() + (a * n + b) * laws::pair_coefficients;
-                c[0] = traits.elastic(p, q);
-                c[1] = traits.dissipative(p, q);
-                c[2] = std::min(p.tangential_damping, q.tangential_damping);
-                c[3] = std::min(p.friction, q.friction);
-                c[4] = std::min(p.tangential_stiffness, q.tangential_stiffness);
+                const laws::PairCoefficients<double> mixed{
+                    traits.elastic(p, q),
+                    traits.dissipative(p, q),
+                    std::min(p.tangential_damping, q.tangential_damping),
+                    std::min(p.friction, q.friction),
+                    std::min(p.tangential_stiffness, q.tangential_stiffness),
+                    std::min(p.cohesion, q.cohesion),
+                    std::min(p.rolling_friction, q.rolling_friction),
+                    std::min(p.rolling_damping, q.rolling_damping),
+                    scene.md.cut ? 0.0 : -std::numeric_limits<double>::infinity(),
+                    scene.md.lever_arm == scene::LeverArm::plane ? 1.0 : 0.0};
+                const double values[] = {mixed.elastic,          mixed.dissipative,      mixed.tangential_damping,
+                                         mixed.friction,         mixed.tangential_stiffness, mixed.cohesion,
+                                         mixed.rolling_friction, mixed.rolling_damping,  mixed.least,
+                                         mixed.lever};
+                static_assert(std::size(values) == laws::pair_coefficients);
+                std::copy_n(values, laws::pair_coefficients, c);
                 for (const scene::MaterialPair& pair : scene.pairs) {
                     const bool here = (pair.first == p.name && pair.second == q.name) ||
                                       (pair.first == q.name && pair.second == p.name);
                     if (!here) continue;
-                    const double values[] = {traits.elastic(pair), traits.dissipative(pair),
-                                             pair.tangential_damping, pair.friction,
-                                             pair.tangential_stiffness};
-                    for (int k = 0; k < laws::pair_coefficients; ++k)
-                        if (values[k] >= 0) c[k] = values[k];
+                    const double given[] = {traits.elastic(pair),      traits.dissipative(pair),
+                                            pair.tangential_damping,   pair.friction,
+                                            pair.tangential_stiffness, pair.cohesion,
+                                            pair.rolling_friction,     pair.rolling_damping};
+                    for (std::size_t k = 0; k < std::size(given); ++k)
+                        if (given[k] >= 0) c[k] = given[k];
                 }
+                if (scene.md.tangential == scene::TangentialLaw::none) c[2] = c[3] = c[4] = c[6] = c[7] = 0;
             }
     });
     return table;
@@ -117,20 +163,26 @@ Needs analyse(const Scene& scene, const std::vector<scene::GrainState>& grains) 
         needs.mass_min = std::min(needs.mass_min, g.mass);
         needs.mass_max = std::max(needs.mass_max, g.mass);
         if (g.material != grains.front().material) needs.many_materials = true;
-        needs.spinning = needs.spinning || g.omega != 0;
-        covered += std::numbers::pi * g.radius * g.radius;
+        needs.spinning = needs.spinning || g.omega != 0 || norm(g.angular_velocity) > 0;
+        covered += content(scene, g.radius);
     }
     if (grains.empty()) needs.radius_min = needs.radius_max = needs.mass_min = needs.mass_max = 0;
     needs.many_radii = needs.radius_min != needs.radius_max;
     const std::vector<double> table = pair_table(scene);
     if (scene.md.tangential != scene::TangentialLaw::none)
-        for (std::size_t p = 0; p < table.size(); p += laws::pair_coefficients)
-            needs.friction = needs.friction || (table[p + 3] > 0 && (table[p + 2] > 0 || table[p + 4] > 0));
-    needs.memory = needs.friction && scene.md.tangential == scene::TangentialLaw::cundall_strack;
+        for (std::size_t p = 0; p < table.size(); p += laws::pair_coefficients) {
+            const laws::PairCoefficients<double> c = laws::coefficients_from<double>(table.data() + p);
+            const bool surfaces = c.friction > 0 && (c.tangential_damping > 0 || c.tangential_stiffness > 0);
+            needs.friction = needs.friction || surfaces;
+            needs.couples = needs.couples || (c.rolling_friction > 0 && c.rolling_damping > 0) ||
+                            (surfaces && c.lever > 0);
+        }
+    needs.memory = needs.friction && (scene.md.tangential == scene::TangentialLaw::cundall_strack ||
+                                      scene.md.tangential == scene::TangentialLaw::walton_braun);
     needs.walls = !scene.walls.empty();
     for (const scene::Wall& w : scene.walls) needs.moving_walls = needs.moving_walls || !w.motion.empty();
     needs.gravity = norm(scene.domain.gravity) > 0;
-    needs.packing_fraction = covered / area(scene);
+    needs.packing_fraction = covered / content(scene);
     return needs;
 }
 
@@ -149,31 +201,37 @@ Derived derive(const Scene& scene, const Needs& needs) {
     // deepest.
     const double light = 0.5 * needs.mass_min, heavy = needs.mass_max;
     const double inertia = scene.md.inertia == scene::Inertia::disc ? 0.5 : 0.4;
-    const auto scale = [&](const double* c, double mass, double radius) {
-        return with_normal_law(
-            scene, [&](auto traits) { return traits.scale(c[0], c[1], mass, radius, scene.md.max_speed); });
+    const auto scale = [&](const Coefficients& c, double mass, double radius) {
+        return with_normal_law(scene,
+                               [&](auto traits) { return traits.scale(c, mass, radius, scene.md.max_speed); });
+    };
+    const auto bound = [&](double critical, double recommended) {
+        d.critical_dt = std::min(d.critical_dt, critical);
+        d.recommended_dt = std::min(d.recommended_dt, recommended);
     };
     for (std::size_t p = 0; p < table.size(); p += laws::pair_coefficients) {
-        const double* c = table.data() + p;
+        const Coefficients c = laws::coefficients_from<double>(table.data() + p);
         const ContactScale fast = scale(c, light, 0.5 * needs.radius_min);
         const ContactScale deep = scale(c, heavy, needs.radius_max);
         d.collision_time = std::min(d.collision_time, fast.collision_time);
-        d.critical_dt = std::min(d.critical_dt, stable_phase(order, fast.damping_ratio) / fast.frequency);
-        d.recommended_dt = std::min(d.recommended_dt, fast.collision_time / 50);
+        bound(stable_phase(order, fast.damping_ratio) / fast.frequency, fast.collision_time / 50);
         d.restitution_min = std::min({d.restitution_min, fast.restitution, deep.restitution});
         d.restitution_max = std::max({d.restitution_max, fast.restitution, deep.restitution});
         d.overlap_ratio = std::max(d.overlap_ratio, deep.overlap / needs.radius_min);
-        if (!needs.friction || c[3] == 0) continue;
-        const double tangential_mass = 1 / (2 / needs.mass_min * (1 + 1 / inertia)); // of two light grains
-        if (c[2] > 0) {
-            d.critical_dt = std::min(d.critical_dt, stable_damping(order) * tangential_mass / c[2]);
-            d.recommended_dt = std::min(d.recommended_dt, 0.15 * tangential_mass / c[2]);
+        if (c.rolling_friction > 0 && c.rolling_damping > 0) { // of two of the lightest grains
+            const double inertia_of_two = 0.5 * inertia * needs.mass_min * needs.radius_min * needs.radius_min;
+            bound(stable_damping(order) * inertia_of_two / c.rolling_damping,
+                  0.15 * inertia_of_two / c.rolling_damping);
         }
+        if (!needs.friction || c.friction == 0) continue;
+        const double tangential_mass = 1 / (2 / needs.mass_min * (1 + 1 / inertia)); // of two light grains
+        if (c.tangential_damping > 0)
+            bound(stable_damping(order) * tangential_mass / c.tangential_damping,
+                  0.15 * tangential_mass / c.tangential_damping);
         if (needs.memory) { // the spring swings at its own frequency
-            const double frequency = std::sqrt(c[4] / tangential_mass);
-            const double ratio = c[2] / (2 * std::sqrt(c[4] * tangential_mass));
-            d.critical_dt = std::min(d.critical_dt, stable_phase(order, ratio) / frequency);
-            d.recommended_dt = std::min(d.recommended_dt, std::numbers::pi / frequency / 50);
+            const double frequency = std::sqrt(c.tangential_stiffness / tangential_mass);
+            const double ratio = c.tangential_damping / (2 * std::sqrt(c.tangential_stiffness * tangential_mass));
+            bound(stable_phase(order, ratio) / frequency, std::numbers::pi / frequency / 50);
         }
     }
     d.recommended_dt = std::min(d.recommended_dt, 0.25 * d.critical_dt);
@@ -210,7 +268,11 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     const NeighbourMethod wanted = scene.md.neighbours;
     const double ratio = needs.radius_min > 0 ? needs.radius_max / needs.radius_min : 1;
     const bool asks = wanted == NeighbourMethod::lattice || wanted == NeighbourMethod::lattice_half;
-    const bool fits = needs.radius_max > 0 && fit_lattice(scene, needs, plan);
+    if (asks && plan.dimension == 3)
+        fail(Exit::invalid_input,
+             "md.neighbours = \"lattice\": the lattice is of the plane, the domain has three dimensions; use "
+             "\"auto\", \"verlet\" or \"link-cells\"");
+    const bool fits = plan.dimension == 2 && needs.radius_max > 0 && fit_lattice(scene, needs, plan);
     if (asks && needs.radius_max > 0 && plan.columns == 0)
         fail(Exit::invalid_input,
              "md.neighbours = \"lattice\": the domain of {:.4g} x {:.4g} m would have more than {:.3g} "
@@ -231,8 +293,7 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
         if (wanted != NeighbourMethod::automatic && wanted != NeighbourMethod::verlet)
             fail(Exit::invalid_input,
                  "md.neighbours = \"{}\": the contacts of md.tangential = \"{}\" remember, which only lists "
-                 "of "
-                 "pairs can hold; use \"auto\" or \"verlet\"",
+                 "of pairs can hold; use \"auto\" or \"verlet\"",
                  scene::neighbour_choices()[static_cast<std::size_t>(wanted)],
                  scene::tangential_choices()[static_cast<std::size_t>(scene.md.tangential)]);
         plan.neighbours = NeighbourMethod::verlet;
@@ -263,14 +324,16 @@ void note_skipped(const Scene& scene, const Needs& needs, Plan& plan) {
     const auto skip = [&](bool unused, const char* what) {
         if (unused) plan.skipped.emplace_back(what);
     };
-    skip(!plan.spin, "rotation: no angle, spin or torque columns and kernels (no friction couples to spin)");
+    skip(!turns(plan),
+         "rotation: no angle, spin or torque columns and kernels (no friction couples to spin)");
     skip(!plan.many_radii, "radii: one radius, the distance stage compares with a constant");
     skip(!plan.many_materials, "materials: one material, no gather of coefficients");
     skip(!plan.walls, "walls: none");
     skip(plan.walls && !needs.moving_walls, "wall motion: all walls are fixed");
     skip(!needs.gravity, "gravity: none");
-    skip(!scene.domain.periodic[0] && !scene.domain.periodic[1], "periodic images: the domain is open");
-    skip(true, "third dimension");
+    const std::array<bool, 3>& periodic = scene.domain.periodic;
+    skip(!periodic[0] && !periodic[1] && !periodic[2], "periodic images: the domain is open");
+    skip(plan.dimension == 2, "third dimension");
 }
 
 void check_time_step(const Scene& scene, const Derived& derived, double dt) {
@@ -298,13 +361,21 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
         threads_reason =
             fmt::format("of {} allowed: {} grains per thread at least", threads.count, grains_per_thread);
     }
+    plan.dimension = static_cast<int>(scene.domain.dimension);
     plan.lower = scene.domain.lower;
     plan.upper = scene.domain.upper;
     plan.order = order_of(scene.md.integrator);
     plan.normal = static_cast<int>(scene.md.normal);
-    plan.tangential = needs.friction ? static_cast<int>(scene.md.tangential) : 0;
-    plan.spin = needs.friction || needs.spinning || scene.domain.gravity.z != 0;
-    plan.memory = needs.memory ? laws::CundallStrack::memory : 0;
+    const bool turns = needs.friction || needs.couples || needs.spinning ||
+                       (plan.dimension == 2 && scene.domain.gravity.z != 0);
+    plan.rotation = needs.couples ? simd::Rotation::couples
+                    : turns       ? simd::Rotation::friction
+                                  : simd::Rotation::none;
+    // Spins without friction: the law of fewest operations whose kernels have room for torques, which are zero.
+    const bool idle = needs.couples || (plan.dimension == 3 && turns);
+    const scene::TangentialLaw without = idle ? scene::TangentialLaw::haff_werner : scene::TangentialLaw::none;
+    plan.tangential = static_cast<int>(needs.friction ? scene.md.tangential : without);
+    set_memory(plan);
     plan.many_materials = needs.many_materials;
     plan.many_radii = needs.many_radii;
     plan.walls = needs.walls;

@@ -19,9 +19,10 @@ struct Needs {
     double radius_min = 0, radius_max = 0; // m
     double mass_min = 0, mass_max = 0;     // kg
     bool many_radii = false, many_materials = false, friction = false;
-    bool memory = false; // contacts remember
+    bool memory = false;  // contacts of the tangential law remember
+    bool couples = false; // rolling friction, or lever arms to the plane of the contact
     bool walls = false, moving_walls = false, gravity = false, spinning = false;
-    double packing_fraction = 0; // grain area over domain area
+    double packing_fraction = 0; // grain area or volume over that of the domain
 };
 
 // Physics derived from the scene (docs/physics.md 3).
@@ -37,9 +38,11 @@ struct Plan {
     simd::Isa isa = simd::Isa::scalar;
     int threads = 1;
     scene::NeighbourMethod neighbours = scene::NeighbourMethod::link_cells; // never automatic
-    int order = 5;
-    int memory = 0; // numbers that a contact remembers
-    bool spin = false, many_materials = false, many_radii = false, walls = false;
+    int dimension = 2, order = 5;
+    // Numbers that a contact remembers, and how many of them change sign when its partners are exchanged.
+    int memory = 0, odd_memory = 0;
+    simd::Rotation rotation = simd::Rotation::none;
+    bool many_materials = false, many_radii = false, walls = false;
     int normal = 0, tangential = 0; // positions in laws.def
     double inertia_factor = 0.5;    // J = c m R^2
     double dt = 0;
@@ -51,6 +54,13 @@ struct Plan {
     double site_x = 0, site_y = 0;            // m
     std::vector<std::string> chosen, skipped; // one reason per line
 };
+
+[[nodiscard]] constexpr bool turns(const Plan& plan) {
+    return plan.rotation != simd::Rotation::none;
+}
+[[nodiscard]] constexpr bool has_couples(const Plan& plan) {
+    return plan.rotation == simd::Rotation::couples;
+}
 
 [[nodiscard]] constexpr bool is_lattice(scene::NeighbourMethod method) {
     return method == scene::NeighbourMethod::lattice || method == scene::NeighbourMethod::lattice_half;

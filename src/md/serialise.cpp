@@ -2,6 +2,7 @@
 #include "core/bytes.hpp"
 #include "md/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -9,38 +10,28 @@ namespace sandlane::md {
 
 namespace {
 
-// Calls body(column) for every column of the state, in the order of the file.
-template <class StateRef, class Body> void for_columns(StateRef& state, const Body& body) {
-    body(state.gear);
-    body(state.radius);
-    body(state.inverse_radius);
-    body(state.mass);
-    body(state.inverse_mass);
-    body(state.spin_factor);
-    body(state.material);
-    body(state.image_x);
-    body(state.image_y);
-    body(state.id);
-}
-
 // What indexes memory, and what the plan was made for. Corrected positions may lie a fraction of a step
 // outside.
 bool suits(const State& state, std::size_t i, const scene::Scene& scene, const Plan& plan,
            const Needs& needs) {
+    const double* record = state.record_of(i);
+    const auto finite = [](double x) { return std::isfinite(x); };
+    if (!std::all_of(record, record + simd::record_fields, finite)) return false;
+    for (int dof = 0; dof < state.dofs(); ++dof)
+        for (int k = 2; k < state.order; ++k)
+            if (!std::isfinite(state.value(i, dof, k))) return false;
     const auto near = [&](double x, double low, double high) {
         return x > low - needs.radius_min && x < high + needs.radius_min;
     };
-    for (int dof = 0; dof < state.dofs; ++dof)
-        for (int k = 0; k < state.order; ++k)
-            if (!std::isfinite(state.value(i, dof, k))) return false;
-    const double mass = state.mass[i], radius = state.radius[i];
-    return near(state.value(i, 0, 0), plan.lower.x, plan.upper.x) &&
-           near(state.value(i, 1, 0), plan.lower.y, plan.upper.y) && radius >= needs.radius_min &&
-           radius <= needs.radius_max && mass >= needs.mass_min && mass <= needs.mass_max &&
-           state.inverse_radius[i] == 1.0 / radius && state.inverse_mass[i] == 1.0 / mass &&
-           (!state.spin() || state.spin_factor[i] == 1.0 / (plan.inertia_factor * mass * radius)) &&
-           state.id[i] >= 0 && static_cast<std::size_t>(state.id[i]) < needs.grains + needs.poured &&
-           state.material[i] >= 0 && static_cast<std::size_t>(state.material[i]) < scene.materials.size();
+    const Vec p = state.position(i), turn = state.turn(i);
+    const double mass = state.mass[i], radius = state.radius(i);
+    return near(p.x, plan.lower.x, plan.upper.x) && near(p.y, plan.lower.y, plan.upper.y) &&
+           (plan.dimension == 2 || near(p.z, plan.lower.z, plan.upper.z)) && std::isfinite(norm(turn)) &&
+           radius >= needs.radius_min && radius <= needs.radius_max && mass >= needs.mass_min &&
+           mass <= needs.mass_max && state.inverse_radius(i) == 1.0 / radius &&
+           state.inverse_mass[i] == 1.0 / mass && state.id[i] >= 0 &&
+           static_cast<std::size_t>(state.id[i]) < needs.grains + needs.poured && state.material[i] >= 0 &&
+           static_cast<std::size_t>(state.material[i]) < scene.materials.size();
 }
 
 } // namespace
@@ -54,8 +45,10 @@ std::string Simulation::serialise() const {
     w.put(delayed_);
     for (const double energy : {initial_energy_, added_energy_, wall_work_, wall_power_}) w.put(energy);
     w.put(static_cast<std::int32_t>(state_.order));
-    w.put(static_cast<std::int32_t>(state_.dofs));
-    for_columns(state_, [&](const auto& column) { w.put_array(column.data(), column.size()); });
+    w.put(static_cast<std::int32_t>(state_.dofs()));
+    w.put_array(state_.gear.data(), state_.gear.size());
+    state_.for_columns(
+        [&](const auto& column, std::size_t fields) { w.put_array(column.data(), state_.size() * fields); });
     w.put(static_cast<std::uint64_t>(next_waiting_));
     w.put(static_cast<std::uint64_t>(waiting_.size()));
     for (const scene::GrainState& g : waiting_) {
@@ -82,9 +75,10 @@ void Simulation::restore(const std::string& bytes) {
     delayed_ = r.get<std::int64_t>();
     for (double* energy : {&initial_energy_, &added_energy_, &wall_work_, &wall_power_})
         *energy = r.get<double>();
-    if (r.get<std::int32_t>() != state_.order || r.get<std::int32_t>() != state_.dofs) damaged();
-    for_columns(state_, [&](auto& column) { r.get_array(column); });
-    state_.adopt(plan_);
+    if (r.get<std::int32_t>() != state_.order || r.get<std::int32_t>() != state_.dofs()) damaged();
+    r.get_array(state_.gear);
+    state_.for_columns([&](auto& column, std::size_t) { r.get_array(column); });
+    state_.adopt();
     for (std::size_t i = 0; i < state_.size(); ++i)
         if (!suits(state_, i, scene_, plan_, needs_)) damaged();
     next_waiting_ = static_cast<std::size_t>(r.get<std::uint64_t>());
@@ -103,7 +97,8 @@ void Simulation::restore(const std::string& bytes) {
     for (std::uint64_t n = 0; n < events; ++n) events_.push_back(r.get_text());
     const auto grains = static_cast<std::int64_t>(needs_.grains + needs_.poured);
     const auto memory = [&] {
-        return plan_.memory > 0 ? ContactMemory::read(r, plan_.memory, grains) : ContactMemory();
+        const ContactMemory kind(plan_.memory, plan_.odd_memory);
+        return plan_.memory > 0 ? ContactMemory::read(r, kind, grains) : kind;
     };
     lists_.adopt(memory());
     walls_.adopt(memory());
@@ -112,7 +107,6 @@ void Simulation::restore(const std::string& bytes) {
     if (method != plan_.neighbours) damaged();
     force_step_ = step_ + 1;
     sorted_ = true;
-    state_.refresh_records(plan_.dt);
     if (lattice_.rows() > 0) lattice_.clear(state_); // the next prediction puts all grains on it
 }
 

@@ -26,6 +26,7 @@ Simulation::Simulation(scene::Scene scene, const std::vector<scene::GrainState>&
                        Plan plan)
     : scene_(std::move(scene)), needs_(needs), plan_(std::move(plan)), kernels_(&simd::md_kernels(plan_.isa)),
       coefficients_(pair_table(scene_)), walls_(scene_, plan_, needs_) {
+    state_.prepare(plan_, scene_.domain);
     prepare_method();
     start(grains);
 }
@@ -36,12 +37,13 @@ void Simulation::prepare_method() {
     cells_ = LinkCells();
     lists_ = PairLists();
     state_.double_records = plan_.neighbours == NeighbourMethod::verlet;
+    state_.resize_buffers();
     if (is_lattice(plan_.neighbours)) {
         lattice_ = Lattice(scene_, plan_, needs_.radius_max);
     } else if (plan_.neighbours == NeighbourMethod::verlet) {
         lists_ = PairLists(scene_, plan_, needs_);
         accumulators_.assign(static_cast<std::size_t>(plan_.threads),
-                             Column<double>((tile_size + block_width) * simd::force_fields, 0.0));
+                             Column<double>((tile_size + block_width) * state_.force_stride(), 0.0));
     } else {
         cells_ =
             LinkCells(scene_, plan_, needs_.radius_max, plan_.neighbours == NeighbourMethod::brute_force);
@@ -50,27 +52,19 @@ void Simulation::prepare_method() {
 
 // Accelerations before the first step: without them every velocity would keep an error of a dt/2.
 void Simulation::start(const std::vector<scene::GrainState>& grains) {
-    state_.order = plan_.order;
-    state_.dofs = plan_.spin ? 3 : 2;
     for (const scene::GrainState& g : grains)
         if (g.insert_at > -infinity)
             waiting_.push_back(g);
         else
-            state_.append(g, plan_, plan_.dt);
+            state_.append(g, plan_.dt);
     std::stable_sort(waiting_.begin(), waiting_.end(),
                      [](const auto& a, const auto& b) { return a.insert_at < b.insert_at; });
     sort_by_place();
     bin();
-    compute_forces();
-    const double half_dt2 = 0.5 * plan_.dt * plan_.dt;
-    for (std::size_t i = 0; i < state_.size(); ++i) {
-        const double* f = state_.force.data() + i * simd::force_fields;
-        state_.value(i, 0, 2) = half_dt2 * (f[0] * state_.inverse_mass[i] + scene_.domain.gravity.x);
-        state_.value(i, 1, 2) = half_dt2 * (f[1] * state_.inverse_mass[i] + scene_.domain.gravity.y);
-        if (plan_.spin)
-            state_.value(i, 2, 2) = half_dt2 * (f[2] * state_.spin_factor[i] + scene_.domain.gravity.z);
-    }
-    state_.force.fill(0.0);
+    const std::vector<double> forces = take_forces();
+    const simd::MotionView view = motion_view();
+    for (std::size_t i = 0; i < state_.size(); ++i)
+        state_.set_accelerations(i, forces.data() + i * state_.force_stride(), view);
     wall_work_ = 0;
     initial_energy_ = observe().energy();
 }
@@ -112,8 +106,7 @@ std::int64_t Simulation::next_stop(std::int64_t end) const {
 }
 
 void Simulation::integrate(bool correct, bool predict) {
-    const auto& table = correct ? (predict ? kernels_->advance : kernels_->correct) : kernels_->predict;
-    const simd::MotionKernel kernel = table[plan_.order - 3][plan_.spin ? 1 : 0];
+    const simd::MotionKernel kernel = motion_kernel(correct, predict);
     const simd::MotionView whole = motion_view();
     const std::size_t n = state_.size();
     const bool on_lattice = predict && is_lattice(plan_.neighbours);
@@ -121,25 +114,29 @@ void Simulation::integrate(bool correct, bool predict) {
     for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
         const std::size_t begin = tile * tile_size, end = std::min(n, begin + tile_size);
         simd::MotionView view = whole;
-        view.force += begin * simd::force_fields;
+        if (correct) view.force += begin * state_.force_stride();
         motion_results_[tile] =
             kernel(view, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end));
         if (on_lattice && motion_results_[tile].outside == 0)
-            lattice_.leave(state_, kernels_->bin, begin, end);
+            lattice_.leave(state_, kernels_->plane.bin, begin, end);
     });
     if (predict) check_motion();
+}
+
+simd::MotionKernel Simulation::motion_kernel(bool correct, bool predict) const {
+    const auto& table = correct ? (predict ? kernels().advance : kernels().correct) : kernels().predict;
+    return table[plan_.order - 3][static_cast<int>(plan_.rotation)];
 }
 
 // One pass over the tiles: forces at the predicted positions, correction, and the next prediction, whose
 // records go to the other buffer because tiles that come later still need these.
 void Simulation::forces_and_motion(bool predict) {
-    const auto& table = predict ? kernels_->advance : kernels_->correct;
-    const simd::MotionKernel kernel = table[plan_.order - 3][plan_.spin ? 1 : 0];
+    const simd::MotionKernel kernel = motion_kernel(true, predict);
     simd::MotionView whole = motion_view();
-    whole.records = state_.next_record.data();
-    walls_.move_to(static_cast<double>(force_step_) * plan_.dt);
-    walls_.update(state_, state_.record.data());
-    lists_.update(state_, pair_view(), *kernels_, plan_.threads);
+    whole.new_records = state_.next_record.data();
+    whole.new_spins = state_.next_spin.data();
+    move_walls();
+    lists_.update(state_, pair_view(), kernels(), plan_.threads);
     const std::size_t n = state_.size();
     motion_results_.assign(state_.tiles(), {});
     wall_results_.assign(state_.tiles(), {});
@@ -155,16 +152,15 @@ void Simulation::forces_and_motion(bool predict) {
     check_walls();
     add_wall_work();
     ++force_step_;
-    if (!predict) return;
     state_.record.swap(state_.next_record);
-    check_motion();
+    state_.spin.swap(state_.next_spin);
+    if (predict) check_motion();
 }
 
 // Forces on the grains of a tile in the calling thread's accumulator, which the motion kernel clears.
 double* Simulation::add_tile_forces(std::size_t tile) {
     double* force = accumulators_[static_cast<std::size_t>(thread_index())].data();
-    const simd::TileKernel kernel =
-        kernels_->tile[plan_.normal][plan_.tangential][plan_.many_materials ? 1 : 0];
+    const simd::TileKernel kernel = law().tile[has_couples(plan_) ? 1 : 0][plan_.many_materials ? 1 : 0];
     tile_overlaps_[tile] = kernel(pair_view(), lists_.tile(tile, state_), force, 0.0);
     if (!walls_.empty())
         wall_results_[tile] = walls_.add_forces(wall_input(force, tile * tile_size), tile, state_.size(),
@@ -174,13 +170,13 @@ double* Simulation::add_tile_forces(std::size_t tile) {
 
 // After a prediction: guards on the speed, lists and lattice follow the grains, grains outside leave.
 void Simulation::check_motion() {
-    double speed2 = 0;
+    double shift2 = 0;
     std::int64_t outside = 0;
     for (const simd::MotionResult& r : motion_results_) {
-        speed2 = std::max(speed2, r.largest_speed2);
+        shift2 = std::max(shift2, r.largest_shift2);
         outside += r.outside;
     }
-    largest_speed_ = std::sqrt(speed2);
+    largest_speed_ = std::sqrt(shift2) / plan_.dt;
     if (largest_speed_ * plan_.dt > 0.1 * needs_.radius_min)
         fail(
             Exit::unstable,
@@ -199,37 +195,53 @@ void Simulation::check_motion() {
         });
 }
 
-// Forces at the predicted positions, time (step + 1) dt; at the start, of the initial state.
-void Simulation::compute_forces() {
+void Simulation::move_walls() {
     walls_.move_to(static_cast<double>(force_step_) * plan_.dt);
     walls_.update(state_, state_.record.data());
-    if (plan_.neighbours == NeighbourMethod::verlet) {
-        lists_.update(state_, pair_view(), *kernels_, plan_.threads);
-        tile_overlaps_.assign(state_.tiles(), 0.0);
-        wall_results_.assign(state_.tiles(), {});
-        for (std::size_t tile = 0; tile < state_.tiles(); ++tile) {
-            double* force = add_tile_forces(tile);
-            const std::size_t begin = tile * tile_size, count = std::min(state_.size() - begin, tile_size);
-            for (std::size_t n = 0; n < count * simd::force_fields; ++n)
-                state_.force[begin * simd::force_fields + n] = std::exchange(force[n], 0.0);
-        }
-        check_overlap(
-            tile_overlaps_.empty() ? 0.0 : *std::max_element(tile_overlaps_.begin(), tile_overlaps_.end()));
-        check_walls();
-    } else {
-        pair_forces();
-        wall_forces();
-    }
+}
+
+// Forces at the predicted positions, time (step + 1) dt, where the method keeps them; at the start, of the
+// initial state.
+void Simulation::compute_forces() {
+    move_walls();
+    pair_forces();
+    wall_forces();
     add_wall_work();
     ++force_step_;
 }
 
+// The same for every method: [particle][force_stride], and none are left.
+std::vector<double> Simulation::take_forces() {
+    std::vector<double> forces(state_.size() * state_.force_stride());
+    if (plan_.neighbours != NeighbourMethod::verlet) {
+        compute_forces();
+        std::copy_n(state_.force.data(), forces.size(), forces.data());
+        state_.force.fill(0.0);
+        return forces;
+    }
+    move_walls();
+    lists_.update(state_, pair_view(), kernels(), plan_.threads);
+    tile_overlaps_.assign(state_.tiles(), 0.0);
+    wall_results_.assign(state_.tiles(), {});
+    for (std::size_t tile = 0; tile < state_.tiles(); ++tile) {
+        double* force = add_tile_forces(tile);
+        const std::size_t begin = tile * tile_size, count = std::min(state_.size() - begin, tile_size);
+        for (std::size_t n = 0; n < count * state_.force_stride(); ++n)
+            forces[begin * state_.force_stride() + n] = std::exchange(force[n], 0.0);
+    }
+    check_overlap(tile_overlaps_.empty() ? 0.0
+                                         : *std::max_element(tile_overlaps_.begin(), tile_overlaps_.end()));
+    check_walls();
+    add_wall_work();
+    ++force_step_;
+    return forces;
+}
+
 void Simulation::pair_forces() {
-    const simd::PairKernel pair =
-        kernels_->pair[plan_.normal][plan_.tangential][plan_.many_materials ? 1 : 0];
+    const simd::PairKernel pair = law().pair[has_couples(plan_) ? 1 : 0][plan_.many_materials ? 1 : 0];
     const simd::PairView pairs = pair_view();
     const bool on_lattice = is_lattice(plan_.neighbours);
-    if (!on_lattice) cells_.build(state_, kernels_->bin, plan_.threads);
+    if (!on_lattice) cells_.build(state_, kernels().bin, plan_.threads);
     const std::int32_t height = on_lattice ? lattice_.tile_rows() : cell_tile_rows;
     const std::int32_t rows = on_lattice ? lattice_.rows() : cells_.rows();
     const auto tiles = static_cast<std::size_t>((rows + height - 1) / height);
@@ -243,7 +255,7 @@ void Simulation::pair_forces() {
         const std::int32_t begin = static_cast<std::int32_t>(tile) * height,
                            end = std::min(rows, begin + height);
         results[tile] = on_lattice ? lattice_kernel(sites, pairs, pair, begin, end)
-                                   : kernels_->cells(cells, pairs, pair, begin, end);
+                                   : kernels().cells(cells, pairs, pair, begin, end);
     });
     double overlap = 0;
     std::int64_t occupied = 0;
@@ -271,7 +283,7 @@ void Simulation::wall_forces() {
     for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
         const std::size_t first = tile * tile_size;
         wall_results_[tile] =
-            walls_.add_forces(wall_input(state_.force.data() + first * simd::force_fields, first), tile,
+            walls_.add_forces(wall_input(state_.force.data() + first * state_.force_stride(), first), tile,
                               state_.size(), plan_.isa != simd::Isa::scalar);
     });
     check_walls();
@@ -287,7 +299,10 @@ WallInput Simulation::wall_input(double* force, std::size_t first) const {
             nullptr,
             nullptr,
             0,
-            plan_.dt};
+            plan_.dt,
+            1.0 / plan_.dt,
+            state_.spin.empty() ? nullptr : state_.spin.data(),
+            static_cast<int>(state_.force_stride())};
 }
 
 void Simulation::check_walls() const {
@@ -312,44 +327,44 @@ void Simulation::add_wall_work() {
 
 simd::MotionView Simulation::motion_view() {
     const Vec size = plan_.upper - plan_.lower, g = scene_.domain.gravity;
-    const bool px = scene_.domain.periodic[0], py = scene_.domain.periodic[1];
-    return {state_.gear.data(),
-            state_.record.data(),
-            state_.force.data(),
-            state_.inverse_mass.data(),
-            state_.spin_factor.data(),
-            state_.radius.data(),
-            state_.inverse_radius.data(),
-            state_.image_x.data(),
-            state_.image_y.data(),
-            static_cast<std::int64_t>(state_.size()),
-            plan_.dt,
-            0.5 * plan_.dt * plan_.dt,
-            1.0 / plan_.dt,
-            g.x,
-            g.y,
-            g.z,
-            plan_.lower.x,
-            plan_.lower.y,
-            plan_.upper.x,
-            plan_.upper.y,
-            px ? size.x : 0.0,
-            py ? size.y : 0.0};
+    const double gravity[] = {g.x, g.y, g.z}, lower[] = {plan_.lower.x, plan_.lower.y, plan_.lower.z};
+    const double upper[] = {plan_.upper.x, plan_.upper.y, plan_.upper.z}, sizes[] = {size.x, size.y, size.z};
+    simd::MotionView view{};
+    view.gear = state_.gear.data();
+    view.records = view.new_records = state_.record.data();
+    view.spins = view.new_spins = state_.spin.data();
+    view.force = state_.force.data();
+    view.inverse_mass = state_.inverse_mass.data();
+    view.inverse_inertia = 1.0 / plan_.inertia_factor;
+    view.half_dt2 = 0.5 * plan_.dt * plan_.dt;
+    view.gravity_spin = plan_.dimension == 2 ? g.z : 0.0;
+    for (std::size_t d = 0; d < 3; ++d) {
+        view.image[d] = state_.image[d].data();
+        view.gravity[d] = gravity[d];
+        view.lower[d] = lower[d];
+        view.upper[d] = upper[d];
+        view.period[d] = scene_.domain.periodic[d] ? sizes[d] : 0.0;
+    }
+    return view;
 }
 
 simd::PairView Simulation::pair_view() {
     const Vec size = plan_.upper - plan_.lower;
-    const bool px = scene_.domain.periodic[0], py = scene_.domain.periodic[1];
-    return {state_.record.data(),
-            state_.material.data(),
-            state_.force.data(),
-            px ? size.x : 0.0,
-            py ? size.y : 0.0,
-            px ? 0.5 * size.x : infinity,
-            py ? 0.5 * size.y : infinity,
-            coefficients_.data(),
-            static_cast<std::int32_t>(scene_.materials.size()),
-            plan_.dt};
+    const double sizes[] = {size.x, size.y, size.z};
+    simd::PairView view{};
+    view.records = state_.record.data();
+    view.spins = state_.spin.empty() ? nullptr : state_.spin.data();
+    view.material = state_.material.data();
+    view.force = state_.force.data();
+    for (std::size_t d = 0; d < 3; ++d) {
+        view.period[d] = scene_.domain.periodic[d] ? sizes[d] : 0.0;
+        view.half[d] = scene_.domain.periodic[d] ? 0.5 * sizes[d] : infinity;
+    }
+    view.coefficients = coefficients_.data();
+    view.materials = static_cast<std::int32_t>(scene_.materials.size());
+    view.dt = plan_.dt;
+    view.inverse_dt = 1.0 / plan_.dt;
+    return view;
 }
 
 } // namespace sandlane::md

@@ -1,4 +1,4 @@
-// Force-based molecular dynamics of discs: the time step, and what happens between steps.
+// Force-based molecular dynamics of discs and spheres: the time step, and what happens between steps.
 #pragma once
 
 #include "analysis/snapshot.hpp"
@@ -44,7 +44,7 @@ public:
     // 128-bit hash over the id-ordered state: equal hashes mean equal bits.
     [[nodiscard]] Hash128 state_hash() const;
 
-    // Forces of the present state [particle][force_fields] by the plan's kernels, or by another table
+    // Forces of the present state [particle][force_stride] by the plan's kernels, or by another table
     // (reference).
     [[nodiscard]] std::vector<double> forces(simd::Isa isa, scene::NeighbourMethod method) const;
 
@@ -82,8 +82,16 @@ private:
     void check_walls() const;
     void add_wall_work();
     void compute_forces();
+    [[nodiscard]] std::vector<double> take_forces();
+    void move_walls();
+    [[nodiscard]] simd::MotionKernel motion_kernel(bool correct, bool predict) const;
+    [[nodiscard]] const simd::DimensionKernels& kernels() const { return kernels_->in(plan_.dimension); }
+    [[nodiscard]] const simd::DimensionKernels::Law& law() const {
+        return kernels().law[plan_.normal][plan_.tangential];
+    }
     [[nodiscard]] double* add_tile_forces(std::size_t tile);
     [[nodiscard]] md::WallInput wall_input(double* force, std::size_t first) const;
+    [[nodiscard]] bool is_inside(Vec p) const;
     void handle_outside();
     void use_link_cells();
     [[noreturn]] void fail_overlap() const;

@@ -2,129 +2,141 @@
 
 #include "core/error.hpp"
 
+#include <algorithm>
+
 namespace sandlane::md {
 
+void State::prepare(const Plan& plan, const scene::Domain& domain) {
+    dimension = plan.dimension;
+    order = plan.order;
+    rotation = plan.rotation;
+    parking_ = plan.lower;
+    for (std::size_t d = 0; d < 3; ++d) periodic_[d] = domain.periodic[d] && static_cast<int>(d) < dimension;
+}
+
 std::size_t State::bytes() const {
-    return gear.bytes() + record.bytes() + next_record.bytes() + force.bytes() + radius.bytes() +
-           inverse_radius.bytes() + mass.bytes() + inverse_mass.bytes() + spin_factor.bytes() +
-           material.bytes() + image_x.bytes() + image_y.bytes() + id.bytes();
+    std::size_t total = gear.bytes() + next_record.bytes() + next_spin.bytes() + force.bytes();
+    for_columns([&](const auto& column, std::size_t) { total += column.bytes(); });
+    return total;
+}
+
+double State::largest_radius() const {
+    double largest = 0;
+    for (std::size_t i = 0; i < size(); ++i) largest = std::max(largest, radius(i));
+    return largest;
+}
+
+Vec State::turn(std::size_t i) const {
+    if (!turns()) return {};
+    if (dimension == 2)
+        return {0, 0, record_of(i)[simd::Record<2>::spin] * record_of(i)[simd::Record<2>::inverse_radius]};
+    const double* s = spin.data() + i * simd::spin_fields;
+    return {s[0], s[1], s[2]};
+}
+
+double State::angle(std::size_t i) const {
+    if (!turns() || dimension == 3) return 0;
+    return record_of(i)[simd::Record<2>::angle] * record_of(i)[simd::Record<2>::inverse_radius];
 }
 
 void State::resize(std::size_t n) {
-    const std::size_t whole = padded(n);
-    const auto fields = static_cast<std::size_t>(dofs * order);
-    gear.resize(whole * fields, 0.0);
-    force.resize((whole + block_width) * simd::force_fields, 0.0);
-    radius.resize(n, 0.0);
-    resize_records();
-    inverse_radius.resize(n, 0.0);
-    mass.resize(n, 0.0);
-    inverse_mass.resize(n, 0.0);
-    if (spin()) spin_factor.resize(n, 0.0);
-    material.resize(n, 0);
-    image_x.resize(n, 0);
-    image_y.resize(n, 0);
-    id.resize(n, -1);
+    gear.resize(padded(n) * gear_fields(), 0.0);
+    for_columns([&](auto& column, std::size_t fields) {
+        column.resize((fields > 1 ? padded(n) + block_width : n) * fields, {});
+    });
+    resize_buffers();
 }
 
-void State::resize_records() {
-    const std::size_t values = (padded(size()) + block_width) * simd::record_fields;
-    record.resize(values, 0.0);
-    next_record.resize(double_records ? values : 0, 0.0);
+void State::resize_buffers() {
+    const std::size_t rows = padded(size()) + block_width;
+    next_record.resize(double_records ? record.size() : 0, 0.0);
+    next_spin.resize(double_records ? spin.size() : 0, 0.0);
+    force.resize(double_records ? 0 : rows * force_stride(), 0.0);
 }
 
 // Padding lanes go through the integrator like particles; gravity must not carry them to infinity for ever.
 void State::park_padding() {
+    for (std::size_t i = size(); i < padded(size()) + block_width; ++i) {
+        std::fill_n(record_of(i), simd::record_fields, 0.0);
+        const double at[] = {parking_.x, parking_.y, parking_.z};
+        std::copy_n(at, dimension, record_of(i));
+        if (spin_fields() > 0) std::fill_n(spin.data() + i * simd::spin_fields, simd::spin_fields, 0.0);
+    }
     for (std::size_t i = size(); i < padded(size()); ++i) {
-        for (int dof = 0; dof < dofs; ++dof)
-            for (int k = 0; k < order; ++k) value(i, dof, k) = 0.0;
-        value(i, 0, 0) = parking_.x;
-        value(i, 1, 0) = parking_.y;
+        for (int dof = 0; dof < dofs(); ++dof)
+            for (int k = 2; k < order; ++k) value(i, dof, k) = 0.0;
         inverse_mass.data()[i] = 0.0;
-        radius.data()[i] = inverse_radius.data()[i] = 0.0;
         material.data()[i] = 0;
-        if (spin()) spin_factor.data()[i] = 0.0;
     }
 }
 
-void State::append(const scene::GrainState& grain, const Plan& plan, double dt) {
+void State::append(const scene::GrainState& grain, double dt) {
     const std::size_t i = size();
-    order = plan.order;
-    dofs = plan.spin ? 3 : 2;
-    parking_ = plan.lower;
     resize(i + 1);
-    radius[i] = grain.radius;
-    inverse_radius[i] = 1.0 / grain.radius;
     mass[i] = grain.mass;
     inverse_mass[i] = 1.0 / grain.mass;
     material[i] = grain.material;
     id[i] = grain.id;
-    image_x[i] = image_y[i] = 0;
     // The lane may have been padding, which the integrator moves along.
-    for (int dof = 0; dof < dofs; ++dof)
-        for (int k = 0; k < order; ++k) value(i, dof, k) = 0.0;
-    value(i, 0, 0) = grain.position.x;
-    value(i, 1, 0) = grain.position.y;
-    value(i, 0, 1) = grain.velocity.x * dt;
-    value(i, 1, 1) = grain.velocity.y * dt;
-    if (spin()) {
-        spin_factor[i] = 1.0 / (plan.inertia_factor * grain.mass * grain.radius); // R/J, J = c m R^2
-        value(i, 2, 0) = grain.angle;
-        value(i, 2, 1) = grain.omega * dt;
+    for (int dof = 0; dof < dofs(); ++dof)
+        for (int k = 2; k < order; ++k) value(i, dof, k) = 0.0;
+    const Vec p = grain.position, v = dt * grain.velocity, w = dt * grain.angular_velocity;
+    const double r = grain.radius, inverse = 1.0 / grain.radius;
+    if (dimension == 2) {
+        const double arc = turns() ? r * (grain.omega * dt) : 0.0, angle = turns() ? r * grain.angle : 0.0;
+        const double fields[] = {p.x, p.y, v.x, v.y, arc, r, inverse, angle};
+        std::copy_n(fields, simd::record_fields, record_of(i));
+    } else {
+        const double fields[] = {p.x, p.y, p.z, v.x, v.y, v.z, r, inverse};
+        std::copy_n(fields, simd::record_fields, record_of(i));
+    }
+    if (spin_fields() > 0) {
+        const double fields[] = {w.x, w.y, w.z, r};
+        std::copy_n(fields, simd::spin_fields, spin.data() + i * simd::spin_fields);
     }
     park_padding();
+}
+
+void State::set_accelerations(std::size_t i, const double* forces, const simd::MotionView& view) {
+    const double m = inverse_mass[i], of_torque = view.inverse_inertia * m;
+    for (int d = 0; d < dimension; ++d) value(i, d, 2) = view.half_dt2 * (forces[d] * m + view.gravity[d]);
+    if (!turns()) return;
+    const auto torque = [&](int at, int couple) { // over R
+        const bool couples = rotation == simd::Rotation::couples;
+        return couples ? forces[at] + forces[couple] * inverse_radius(i) : forces[at];
+    };
+    if (dimension == 2)
+        value(i, 2, 2) = view.half_dt2 * (torque(2, 3) * of_torque + radius(i) * view.gravity_spin);
+    for (int d = 0; dimension == 3 && d < 3; ++d)
+        value(i, 3 + d, 2) = view.half_dt2 * (torque(4 + d, 8 + d) * (of_torque * inverse_radius(i)));
 }
 
 void State::reorder(std::span<const std::uint32_t> order_of) {
-    const State old = *this;
+    const auto move = [&](auto& column, std::size_t fields) {
+        if (fields == 0) return;
+        auto old = column;
+        for (std::size_t n = 0; n < order_of.size(); ++n)
+            std::copy_n(old.data() + order_of[n] * fields, fields, column.data() + n * fields);
+    };
+    for_columns(move);
+    const Column<double> old = gear;
+    for (std::size_t n = 0; n < order_of.size(); ++n)
+        for (int dof = 0; dof < dofs(); ++dof)
+            for (int k = 2; k < order; ++k) value(n, dof, k) = old[gear_index(order_of[n], dof, k)];
     resize(order_of.size());
-    for (std::size_t n = 0; n < order_of.size(); ++n) {
-        const std::size_t from = order_of[n];
-        for (int dof = 0; dof < dofs; ++dof)
-            for (int k = 0; k < order; ++k) value(n, dof, k) = old.value(from, dof, k);
-        for (std::size_t f = 0; f < simd::record_fields; ++f)
-            record[n * simd::record_fields + f] = old.record[from * simd::record_fields + f];
-        radius[n] = old.radius[from];
-        inverse_radius[n] = old.inverse_radius[from];
-        mass[n] = old.mass[from];
-        inverse_mass[n] = old.inverse_mass[from];
-        if (spin()) spin_factor[n] = old.spin_factor[from];
-        material[n] = old.material[from];
-        image_x[n] = old.image_x[from];
-        image_y[n] = old.image_y[from];
-        id[n] = old.id[from];
-    }
     force.fill(0.0);
     park_padding();
 }
 
-void State::adopt(const Plan& plan) {
-    const std::size_t n = size(), fields = static_cast<std::size_t>(dofs * order);
-    const bool whole = gear.size() == padded(n) * fields && inverse_radius.size() == n && mass.size() == n &&
-                       inverse_mass.size() == n && material.size() == n && image_x.size() == n &&
-                       image_y.size() == n && id.size() == n && spin_factor.size() == (spin() ? n : 0);
+void State::adopt() {
+    const std::size_t n = size();
+    bool whole = gear.size() == padded(n) * gear_fields();
+    for_columns(
+        [&](const auto& column, std::size_t fields) { whole = whole && column.size() == n * fields; });
     if (!whole) fail(Exit::io, "its columns have unequal length");
-    parking_ = plan.lower;
     resize(n);
     force.fill(0.0);
     park_padding();
-}
-
-void State::refresh_records(double dt) {
-    for (std::size_t i = 0; i < size(); ++i) {
-        double* r = record.data() + i * simd::record_fields;
-        r[0] = value(i, 0, 0);
-        r[1] = value(i, 1, 0);
-        r[2] = value(i, 0, 1) * (1.0 / dt);
-        r[3] = value(i, 1, 1) * (1.0 / dt);
-        r[4] = spin() ? radius[i] * (value(i, 2, 1) * (1.0 / dt)) : 0.0;
-        r[5] = radius[i];
-        r[6] = inverse_radius[i];
-        r[7] = 0.0;
-    }
-    if (!double_records) return;
-    // A prediction writes positions and velocities, and radii only beside a spin.
-    for (std::size_t n = 0; n < size() * simd::record_fields; ++n) next_record[n] = record[n];
 }
 
 } // namespace sandlane::md

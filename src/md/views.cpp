@@ -1,5 +1,6 @@
 // What others see of a simulation: observables, forces, snapshots, contacts, the hash of its state.
 #include "md/simulation.hpp"
+#include "scene/cell_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,13 +26,9 @@ std::vector<double> Simulation::forces(simd::Isa isa, NeighbourMethod method) co
     other.prepare_method();
     other.lists_.adopt(lists_.memory(state_));
     other.walls_.adopt(walls_.memory(state_));
-    other.state_.resize_records();
-    other.state_.refresh_records(plan_.dt);
     other.bin();
     other.force_step_ = step_;
-    other.compute_forces();
-    return {other.state_.force.begin(),
-            other.state_.force.begin() + static_cast<std::ptrdiff_t>(state_.size()) * simd::force_fields};
+    return other.take_forces();
 }
 
 namespace {
@@ -51,10 +48,6 @@ void swap_partners(analysis::Contact& c) {
     c.force = -1.0 * c.force;
 }
 
-double into(double x, double lower, double period) {
-    return period > 0 ? x - period * std::floor((x - lower) / period) : x;
-}
-
 } // namespace
 
 analysis::Snapshot Simulation::snapshot() const {
@@ -63,25 +56,34 @@ analysis::Snapshot Simulation::snapshot() const {
     s.time = time();
     s.lower = plan_.lower;
     s.upper = plan_.upper;
+    s.dimension = plan_.dimension;
     s.periodic_x = scene_.domain.periodic[0];
     s.periodic_y = scene_.domain.periodic[1];
+    s.periodic_z = scene_.domain.periodic[2];
     const Observables now = observe();
-    const Vec size = s.upper - s.lower;
+    const scene::Box box(scene_.domain);
     const double rate = 1 / plan_.dt;
     for (const std::size_t i : by_id(state_)) {
+        const Vec p = box.wrapped(state_.position(i)), v = rate * state_.shift(i), w = rate * state_.turn(i);
         s.id.push_back(state_.id[i]);
-        s.x.push_back(into(state_.value(i, 0, 0), s.lower.x, s.periodic_x ? size.x : 0));
-        s.y.push_back(into(state_.value(i, 1, 0), s.lower.y, s.periodic_y ? size.y : 0));
-        s.angle.push_back(plan_.spin ? state_.value(i, 2, 0) : 0.0);
-        s.vx.push_back(state_.value(i, 0, 1) * rate);
-        s.vy.push_back(state_.value(i, 1, 1) * rate);
-        s.omega.push_back(plan_.spin ? state_.value(i, 2, 1) * rate : 0.0);
-        s.radius.push_back(state_.radius[i]);
+        s.x.push_back(p.x);
+        s.y.push_back(p.y);
+        s.angle.push_back(state_.angle(i));
+        s.vx.push_back(v.x);
+        s.vy.push_back(v.y);
+        s.omega.push_back(w.z);
+        s.radius.push_back(state_.radius(i));
         s.mass.push_back(state_.mass[i]);
         s.pressure.push_back(now.pressure[i]);
         s.material.push_back(state_.material[i]);
-        s.image_x.push_back(state_.image_x[i]);
-        s.image_y.push_back(state_.image_y[i]);
+        s.image_x.push_back(state_.images(i, 0));
+        s.image_y.push_back(state_.images(i, 1));
+        if (plan_.dimension == 2) continue;
+        s.z.push_back(p.z);
+        s.vz.push_back(v.z);
+        s.omega_x.push_back(w.x);
+        s.omega_y.push_back(w.y);
+        s.image_z.push_back(state_.images(i, 2));
     }
     s.walls = walls_.shapes(time());
     return s;
@@ -111,12 +113,14 @@ Hash128 Simulation::state_hash() const {
     std::vector<double> values;
     for (const std::size_t i : by_id(state_)) {
         values.push_back(static_cast<double>(state_.id[i]));
-        for (int dof = 0; dof < state_.dofs; ++dof)
-            for (int k = 0; k < state_.order; ++k) values.push_back(state_.value(i, dof, k));
-        values.push_back(state_.radius[i]);
+        const double* record = state_.record_of(i);
+        values.insert(values.end(), record, record + simd::record_fields);
+        for (const double turn : {state_.turn(i).x, state_.turn(i).y, state_.turn(i).z})
+            values.push_back(turn);
+        for (int dof = 0; dof < state_.dofs(); ++dof)
+            for (int k = 2; k < state_.order; ++k) values.push_back(state_.value(i, dof, k));
         values.push_back(state_.mass[i]);
-        values.push_back(state_.image_x[i]);
-        values.push_back(state_.image_y[i]);
+        for (std::size_t d = 0; d < 3; ++d) values.push_back(state_.images(i, d));
     }
     values.push_back(static_cast<double>(step_));
     return hash_bytes(values.data(), values.size() * sizeof(double));

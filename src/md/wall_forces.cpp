@@ -1,4 +1,5 @@
 // Forces of walls on grains: candidate list, its upkeep, and the kernels, one per law of laws.def.
+#include "md/records.hpp"
 #include "md/walls.hpp"
 
 #include <algorithm>
@@ -15,10 +16,11 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
     WallResult result;
     for (const NearWall* n = begin; n != end; ++n) {
         const std::size_t i = n->grain;
-        const double* r = input.records + i * simd::record_fields;
-        const WallContact c = walls.contact(n->element, {r[0], r[1], 0});
-        const double reach = r[5] + c.radius;
-        constexpr int memory = laws::memory_of<Tangential>;
+        const RecordedGrain g =
+            recorded_grain<2>(input.records + i * simd::record_fields, nullptr, input.inverse_dt);
+        const WallContact c = walls.contact(n->element, g.position);
+        const double reach = g.radius + c.radius;
+        constexpr int memory = laws::memory_of<Normal, Tangential, 2>;
         double* const remembered = memory > 0 ? input.memory + (n - input.near) : nullptr;
         if (!c.valid || c.distance >= reach) {
             for (int m = 0; m < memory; ++m) remembered[m * input.stride] = laws::no_contact;
@@ -27,24 +29,21 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
         const WallElement& element = walls.elements()[n->element];
         const double* k = input.coefficients +
                           (input.material[i] * input.materials + element.material) * laws::pair_coefficients;
-        const laws::PairState<double> pair{c.distance * c.direction.x,
-                                           c.distance * c.direction.y,
-                                           c.velocity.x - r[2],
-                                           c.velocity.y - r[3],
-                                           r[4] + c.spin,
-                                           reach,
-                                           r[6] + c.inverse_radius};
+        const laws::PairState<double> pair{c.distance * c.direction.x,         c.distance * c.direction.y,
+                                           c.velocity.x - g.velocity.x,        c.velocity.y - g.velocity.y,
+                                           g.surface_speed + c.spin,           reach,
+                                           g.inverse_radius + c.inverse_radius};
         double held[memory + 1];
         for (int m = 0; m < memory; ++m) held[m] = remembered[m * input.stride];
-        const auto f = laws::pair_force<Normal, Tangential, double>(pair, laws::coefficients_from<double>(k),
+        const auto f = laws::pair_force<Normal, Tangential>(pair, laws::coefficients_from<double>(k),
                                                                     held, input.dt);
         for (int m = 0; m < memory; ++m) remembered[m * input.stride] = held[m];
-        double* force = input.force + (i - input.first) * simd::force_fields;
+        double* force = input.force + (i - input.first) * 4;
         force[0] += f.x;
         force[1] += f.y;
         force[2] += f.tangential;
         result.power += f.x * c.velocity.x + f.y * c.velocity.y - f.tangential * c.spin;
-        const double ratio = f.overlap / r[5];
+        const double ratio = f.overlap / g.radius;
         if (ratio <= result.largest_ratio) continue;
         result.largest_ratio = ratio;
         result.grain = static_cast<std::int64_t>(i);
@@ -119,6 +118,8 @@ private:
             return std::abs(norm(p - e.a) - e.radius) < distance;
         case WallElement::Kind::disc:
             return norm(p - e.a) < distance + e.radius;
+        case WallElement::Kind::surface:
+            break;
         }
         return true;
     }
@@ -146,6 +147,8 @@ double surface_distance(const WallElement& e, Vec p) {
         return std::abs(norm(p - e.a) - e.radius);
     case WallElement::Kind::disc:
         return norm(p - e.a) - e.radius;
+    case WallElement::Kind::surface:
+        break;
     }
     return 0;
 }
@@ -187,9 +190,7 @@ void Walls::update(const State& state, const double* records) {
     rebuild(state, records);
 }
 
-void Walls::rebuild(const State& state, const double* records) {
-    near_.clear();
-    tile_begin_.assign(1, 0);
+void Walls::list_near_elements(const State& state, const double* records) {
     const ElementGrid grid(*this, lower_, upper_, radius_max_ + skin_, state.size());
     for (std::size_t i = 0; i < state.size(); ++i) {
         const double* r = records + i * simd::record_fields;
@@ -198,6 +199,15 @@ void Walls::rebuild(const State& state, const double* records) {
                 near_.push_back({static_cast<std::uint32_t>(i), e});
         if ((i + 1) % tile_size == 0) tile_begin_.push_back(near_.size());
     }
+}
+
+void Walls::rebuild(const State& state, const double* records) {
+    near_.clear();
+    tile_begin_.assign(1, 0);
+    if (surfaces_)
+        list_near_surfaces(state, records);
+    else
+        list_near_elements(state, records);
     while (tile_begin_.size() <= state.tiles()) tile_begin_.push_back(near_.size());
     budget_ = 0.8 * skin_; // the rest covers what the speed bound of a step misses
     stale_ = false;
@@ -216,6 +226,8 @@ WallResult Walls::add_forces(WallInput input, std::size_t tile, std::size_t grai
         const NearWall* all = near_.data();
         return kernel_(*this, input, all + tile_begin_[tile], all + tile_begin_[tile + 1]);
     }
+    if (surfaces_)
+        return add_surface_forces(input, tile * tile_size, std::min(grains, (tile + 1) * tile_size));
     WallResult worst;
     for (std::size_t i = tile * tile_size; i < std::min(grains, (tile + 1) * tile_size); ++i)
         for (std::size_t e = 0; e < elements_.size(); ++e) {

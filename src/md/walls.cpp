@@ -1,5 +1,6 @@
 #include "md/walls.hpp"
 
+#include "scene/lookup.hpp"
 #include "scene/wall_geometry.hpp"
 
 #include <algorithm>
@@ -19,18 +20,6 @@ Vec unit(Vec v) {
 double wrapped_angle(double angle) { // into [0, 2 pi)
     const double turned = std::fmod(angle, two_pi);
     return turned < 0 ? turned + two_pi : turned;
-}
-
-int material_index(const scene::Scene& scene, const std::string& name) {
-    for (std::size_t m = 0; m < scene.materials.size(); ++m)
-        if (scene.materials[m].name == name) return static_cast<int>(m);
-    return 0;
-}
-
-int motion_index(const scene::Scene& scene, const std::string& name) {
-    for (std::size_t m = 0; m < scene.motions.size(); ++m)
-        if (scene.motions[m].name == name) return static_cast<int>(m);
-    return -1;
 }
 
 WallContact towards(Vec position, Vec closest) {
@@ -84,9 +73,15 @@ WallContact disc_contact(const WallElement& e, Vec p) {
 
 Walls::Walls(const scene::Scene& scene, const Plan& plan, const Needs& needs)
     : motions_(scene.motions), rigid_(scene.motions.size()),
-      kernel_(wall_kernel(plan.normal, plan.tangential)), remembered_(plan.memory), fields_(plan.memory),
-      lower_(plan.lower), upper_(plan.upper), skin_(0.5 * needs.radius_min), radius_max_(needs.radius_max) {
+      kernel_(scene.domain.dimension == 3 ? surface_kernel(plan.normal, plan.tangential)
+                                          : wall_kernel(plan.normal, plan.tangential)),
+      remembered_(plan.memory), fields_(plan.memory), lower_(plan.lower), upper_(plan.upper),
+      skin_(0.5 * needs.radius_min), radius_max_(needs.radius_max), threads_(plan.threads) {
     remembered_.index();
+    if (scene.domain.dimension == 3) {
+        build_surfaces(scene);
+        return;
+    }
     for (std::size_t w = 0; w < scene.walls.size(); ++w) add_wall(scene, w);
     elements_ = reference_;
     for (const WallElement& e : reference_) {
@@ -101,8 +96,8 @@ void Walls::add_wall(const scene::Scene& scene, std::size_t index) {
     const scene::Wall& wall = scene.walls[index];
     WallElement e;
     e.wall = static_cast<int>(index);
-    e.material = material_index(scene, wall.material);
-    e.motion = motion_index(scene, wall.motion);
+    e.material = scene::material_index(scene, wall.material);
+    e.motion = scene::motion_index(scene, wall.motion);
     switch (wall.kind) {
     case scene::WallKind::plane:
         e.kind = WallElement::Kind::plane;
@@ -167,6 +162,7 @@ void Walls::add_grains(const scene::Wall& wall, WallElement prototype) {
 void Walls::move_to(double time) {
     if (motions_.empty()) return;
     for (std::size_t m = 0; m < motions_.size(); ++m) rigid_[m] = motion::rigid_state(motions_[m], time);
+    if (surfaces_) return;
     for (std::size_t e = 0; e < elements_.size(); ++e) {
         const WallElement& from = reference_[e];
         if (from.motion < 0) continue;
@@ -198,6 +194,8 @@ WallContact Walls::contact(std::size_t element, Vec p) const {
     case WallElement::Kind::disc:
         c = disc_contact(e, p);
         break;
+    case WallElement::Kind::surface:
+        return {};
     }
     if (!c.valid) return c;
     double omega = e.omega;
@@ -222,6 +220,7 @@ Vec Walls::pivot(const WallElement& element) const {
 std::vector<analysis::WallShape> Walls::shapes(double time) const {
     Walls now = *this;
     now.move_to(time);
+    if (surfaces_) return now.surface_shapes();
     std::vector<analysis::WallShape> result;
     for (const WallElement& e : now.elements_) {
         analysis::WallShape shape;
@@ -240,6 +239,7 @@ std::vector<analysis::WallShape> Walls::shapes(double time) const {
         if (rigid != nullptr) shape.velocity = rigid->velocity_at(e.a);
         switch (e.kind) {
         case WallElement::Kind::vertex:
+        case WallElement::Kind::surface:
             continue;
         case WallElement::Kind::plane: {
             const Vec along = norm(upper_ - lower_) * Vec{-e.b.y, e.b.x, 0};

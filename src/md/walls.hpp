@@ -1,5 +1,6 @@
-// Walls: analytic elements and prescribed wall grains (docs/physics.md 6). Contacts use the same formula
-// text as pairs. A list of near (grain, element) pairs is kept while nothing can have closed the skin.
+// Walls: analytic elements and prescribed wall grains (docs/physics.md 6), in 3D pieces of surface. Contacts
+// use the same formula text as pairs. A list of near (grain, element) pairs is kept while nothing can have
+// closed the skin.
 #pragma once
 
 #include "analysis/snapshot.hpp"
@@ -8,15 +9,19 @@
 #include "md/plan.hpp"
 #include "md/state.hpp"
 #include "motion/prescribed.hpp"
+#include "scene/surfaces.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace sandlane::md {
 
-// One element in the coordinates of its reference time; a moving wall transforms it.
+// One element in the coordinates of its reference time; a moving wall transforms it. `surface` stands for all
+// pieces of a wall in 3D: scene::Surfaces knows their geometry, and grains are seen from the frame of the
+// wall.
 struct WallElement {
-    enum class Kind { plane, segment, vertex, arc, disc };
+    enum class Kind { plane, segment, vertex, arc, disc, surface };
     Kind kind = Kind::segment;
     Vec a, b;          // plane: point, normal; segment: ends; vertex, disc: a; arc: a = centre
     double radius = 0; // arc, disc
@@ -31,9 +36,10 @@ struct WallElement {
 
 // Closest point of an element to a grain.
 struct WallContact {
-    double distance = 0; // from the grain's centre to the surface (disc: to its centre)
-    Vec direction;       // unit vector from the grain to the element
-    Vec velocity;        // of the wall at the contact (disc: of its centre)
+    double distance = 0;  // from the grain's centre to the surface (disc: to its centre)
+    Vec direction;        // unit vector from the grain to the element
+    Vec velocity;         // of the wall at the contact (disc: of its centre)
+    Vec angular_velocity; // of the wall: 3D
     double radius = 0, spin = 0, inverse_radius = 0; // disc: R_j, R_j omega_j, 1/R_j
     bool valid = false;
 };
@@ -50,6 +56,16 @@ struct NearWall {
     std::uint32_t grain, element;
 };
 
+// Contacts of one grain with the pieces of walls in 3D; kept by callers to save allocations.
+struct SurfaceContacts {
+    struct Entry {
+        std::uint32_t element;
+        WallContact contact;
+    };
+    std::vector<scene::Touch> found; // in the frames of the walls
+    std::vector<Entry> entries;
+};
+
 class Walls;
 // Grains and coefficients for wall forces; `force` is the accumulator of grain `first`.
 struct WallInput {
@@ -59,16 +75,19 @@ struct WallInput {
     int materials;
     double* force;
     std::size_t first;
-    // Of laws that remember, beside the list of candidates: number f of candidate n at memory[f * stride +
-    // n].
+    // Of laws that remember, beside the list of candidates: number f of candidate n at
+    // memory[f * stride + n].
     const NearWall* near = nullptr;
     double* memory = nullptr;
     std::ptrdiff_t stride = 0;
-    double dt = 0;
+    double dt = 0, inverse_dt = 0;
+    const double* spins = nullptr; // 3D: records of spins, null without
+    int force_stride = simd::force_stride(2, false);
 };
-// Adds the forces of a range of candidates; compiled per law (wall_forces.cpp).
+// Adds the forces of a range of candidates; compiled per law (wall_forces.cpp, surface_forces.cpp).
 using WallKernel = WallResult (*)(const Walls&, const WallInput&, const NearWall* begin, const NearWall* end);
 [[nodiscard]] WallKernel wall_kernel(int normal, int tangential);
+[[nodiscard]] WallKernel surface_kernel(int normal, int tangential); // 3D
 
 class Walls {
 public:
@@ -77,6 +96,9 @@ public:
 
     [[nodiscard]] bool empty() const { return elements_.empty(); }
     [[nodiscard]] const std::vector<WallElement>& elements() const { return elements_; }
+    [[nodiscard]] const WallElement& element(std::size_t e) const {
+        return elements_[surfaces_ ? static_cast<std::size_t>(surfaces_->wall(e)) : e];
+    }
     // Positions and velocities of the walls at time t.
     void move_to(double time);
     [[nodiscard]] WallContact contact(std::size_t element, Vec position) const;
@@ -99,19 +121,44 @@ public:
     [[nodiscard]] std::vector<analysis::WallShape> shapes(double time) const;
     // Calls body(element) for the elements that may touch a grain of radius R at p.
     template <class Body> void for_touching(Vec p, double radius, const Body& body) const {
+        if (surfaces_) {
+            for (const auto& [e, c] : touching_surfaces(p, radius)) body(std::size_t{e}, c);
+            return;
+        }
         for (std::size_t e = 0; e < elements_.size(); ++e) {
             const WallContact c = contact(e, p);
             if (c.valid && c.distance < radius + c.radius) body(e, c);
         }
     }
 
+    // 3D: contacts of a grain of radius R at p with the pieces listed for it, by wall, then distance.
+    void find_contacts(Vec p, double radius, const NearWall* begin, const NearWall* end,
+                       SurfaceContacts& contacts) const;
+    // 3D: point of an element, where it stands now, that is closest to p.
+    [[nodiscard]] Vec closest_point(std::size_t element, Vec p) const;
+    // Numbers that a contact remembers.
+    [[nodiscard]] int fields() const { return fields_; }
+
 private:
+    void build_surfaces(const scene::Scene& scene);
+    [[nodiscard]] double domain_reach(const scene::Motion& motion) const;
+    [[nodiscard]] const motion::RigidState* rigid_of(std::size_t element) const;
+    [[nodiscard]] Vec in_frame(std::size_t frame, Vec p) const;
+    void own_contacts(Vec p, double radius, SurfaceContacts& contacts) const;
+    [[nodiscard]] std::vector<SurfaceContacts::Entry> touching_surfaces(Vec p, double radius) const;
+    void list_near_surfaces(const State& state, const double* records);
+    [[nodiscard]] WallResult add_surface_forces(const WallInput& input, std::size_t begin,
+                                                std::size_t end) const;
+    [[nodiscard]] std::vector<analysis::WallShape> surface_shapes() const;
+
     void rebuild(const State& state, const double* records);
+    void list_near_elements(const State& state, const double* records);
     void add_wall(const scene::Scene& scene, std::size_t index);
     void add_chain(const std::vector<Vec>& points, bool closed, WallElement prototype);
     void add_grains(const scene::Wall& wall, WallElement prototype);
 
     std::vector<WallElement> elements_, reference_;
+    std::shared_ptr<const scene::Surfaces> surfaces_; // 3D, else null
     std::vector<scene::Motion> motions_;
     std::vector<motion::RigidState> rigid_; // per motion, at the current time
     std::vector<NearWall> near_;            // ordered by grain, then element
@@ -123,6 +170,7 @@ private:
     bool stale_ = true;
     Vec lower_, upper_;
     double skin_ = 0, budget_ = -1, fastest_ = 0, radius_max_ = 0;
+    int threads_ = 1;
 };
 
 } // namespace sandlane::md

@@ -6,11 +6,20 @@ namespace sandlane::motion {
 
 namespace {
 
-void turn(RigidState& state, double angle, double omega) {
+Vec unit_axis(const scene::Motion& m) {
+    return (1 / norm(m.axis)) * m.axis;
+}
+
+// Rodrigues' formula; about z it gives the plane rotation to the last bit.
+void turn(RigidState& state, Vec axis, double angle, double omega) {
     state.angle = angle;
     state.omega = omega;
-    state.cosine = std::cos(angle);
-    state.sine = std::sin(angle);
+    state.angular_velocity = omega * axis;
+    const double cosine = std::cos(angle), sine = std::sin(angle);
+    const Vec along = (1 - cosine) * axis, across = sine * axis;
+    state.row[0] = along.x * axis + Vec{cosine, -across.z, across.y};
+    state.row[1] = along.y * axis + Vec{across.z, cosine, -across.x};
+    state.row[2] = along.z * axis + Vec{-across.y, across.x, cosine};
 }
 
 void oscillate(RigidState& state, const scene::Motion& m, double time) {
@@ -23,12 +32,17 @@ void oscillate(RigidState& state, const scene::Motion& m, double time) {
 }
 
 // Drum whose centre runs on a circle of orbit_radius about m.centre while it spins: positions are given for a
-// drum centred at m.centre, so the shift is the orbit itself (type 4).
+// drum centred at m.centre, so the shift is the orbit itself (type 4). The orbit lies across the axis and
+// starts along x, or along y where the axis leads close to x.
 void planetary(RigidState& state, const scene::Motion& m, double time) {
     const double argument = m.orbit_omega * (time - m.start) + m.phase;
-    state.shift = m.orbit_radius * Vec{std::cos(argument), std::sin(argument), 0};
-    state.shift_velocity = (m.orbit_radius * m.orbit_omega) * Vec{-std::sin(argument), std::cos(argument), 0};
-    turn(state, m.omega * (time - m.start), m.omega);
+    const Vec axis = unit_axis(m), start = std::abs(axis.x) < 0.9 ? Vec{1, 0, 0} : Vec{0, 1, 0};
+    const Vec across = start - dot(start, axis) * axis, first = (1 / norm(across)) * across;
+    const Vec second = cross(axis, first);
+    const double cosine = std::cos(argument), sine = std::sin(argument);
+    state.shift = m.orbit_radius * (cosine * first + sine * second);
+    state.shift_velocity = (m.orbit_radius * m.orbit_omega) * (-sine * first + cosine * second);
+    turn(state, axis, m.omega * (time - m.start), m.omega);
 }
 
 } // namespace
@@ -47,7 +61,7 @@ RigidState rigid_state(const scene::Motion& m, double time) {
         oscillate(state, m, time);
         break;
     case scene::MotionKind::rotate:
-        turn(state, m.omega * (time - m.start), m.omega);
+        turn(state, unit_axis(m), m.omega * (time - m.start), m.omega);
         break;
     case scene::MotionKind::planetary:
         planetary(state, m, time);

@@ -8,24 +8,26 @@
 namespace sandlane::motion {
 
 // Position and velocity of a material point of the wall at time t, and its rotation since the reference time.
+// In 2D the axis is z.
 struct RigidState {
     Vec pivot; // reference point that the rotation turns about, in the given positions
     Vec shift; // displacement of the pivot
     Vec shift_velocity;
-    double cosine = 1, sine = 0; // rotation angle since the reference time
+    Vec row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; // rotation matrix
     double angle = 0, omega = 0;
+    Vec angular_velocity; // rad/s: omega along the axis
 
-    [[nodiscard]] Vec position_of(Vec reference) const {
-        const Vec d = reference - pivot;
-        return pivot + shift + Vec{cosine * d.x - sine * d.y, sine * d.x + cosine * d.y, 0};
+    [[nodiscard]] Vec position_of(Vec reference) const { return pivot + shift + rotate(reference - pivot); }
+    [[nodiscard]] Vec reference_of(Vec position) const {
+        const Vec d = position - pivot - shift;
+        return pivot + (d.x * row[0] + d.y * row[1] + d.z * row[2]);
     }
     // Velocity of the material point that is at `position` now.
     [[nodiscard]] Vec velocity_at(Vec position) const {
-        const Vec arm = position - pivot - shift;
-        return shift_velocity + Vec{-omega * arm.y, omega * arm.x, 0};
+        return shift_velocity + cross(angular_velocity, position - pivot - shift);
     }
     [[nodiscard]] Vec rotate(Vec direction) const {
-        return {cosine * direction.x - sine * direction.y, sine * direction.x + cosine * direction.y, 0};
+        return {dot(row[0], direction), dot(row[1], direction), dot(row[2], direction)};
     }
 };
 

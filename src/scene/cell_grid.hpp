@@ -1,4 +1,5 @@
-// Grains in square or cubic cells: neighbour search for start states. Plain and serial; the engines have their own.
+// Grains in square or cubic cells: neighbour search for start states. Plain and serial; the engines have
+// their own.
 #pragma once
 
 #include "core/vec.hpp"

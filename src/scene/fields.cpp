@@ -1,5 +1,7 @@
 #include "scene/fields.hpp"
 
+#include "scene/space.hpp"
+
 #include <algorithm>
 #include <numeric>
 
@@ -76,6 +78,13 @@ void fail_unknown(const Value& value, const std::string& path, const std::vector
                           : fmt::format("unknown key; did you mean \"{}\"?", guess));
 }
 
+void fail_wrong_dimension(const Value& value, const std::string& path, std::int64_t dimension,
+                          const std::string& instead) {
+    fail_at(value, path,
+            fmt::format("is no key of a {}-dimensional scene{}{}", dimension == 3 ? "three" : "two",
+                        instead.empty() ? "" : "; use ", instead));
+}
+
 double read_number(const Value& value, const std::string& path, Unit unit, const Range& range) {
     double x = 0;
     if (value.kind == Value::Kind::text) {
@@ -112,14 +121,20 @@ std::string read_text(const Value& value, const std::string& path) {
     return value.text;
 }
 
-Vec read_vector(const Value& value, const std::string& path, Unit unit) {
+Vec read_vector(const Value& value, const std::string& path, Unit unit, std::int64_t dimension) {
     if (value.kind != Value::Kind::array)
-        fail_at(value, path, fmt::format("{} is not a vector; write [x, y]", shown(value)));
-    if (value.items.size() != 2)
         fail_at(value, path,
-                fmt::format("has {} components; a two-dimensional scene needs [x, y]", value.items.size()));
-    return {read_number(value.items[0], path + "[0]", unit, any),
-            read_number(value.items[1], path + "[1]", unit, any), 0};
+                fmt::format("{} is not a vector; write {}", shown(value), vector_form(dimension)));
+    const std::size_t given = value.items.size();
+    if (given != static_cast<std::size_t>(dimension))
+        fail_at(value, path,
+                fmt::format("has {} components; a {}-dimensional scene needs {}{}", given,
+                            dimension == 3 ? "three" : "two", vector_form(dimension),
+                            dimension == 2 && given == 3 ? ". Write domain.dimension = 3 for space." : ""));
+    Vec v;
+    for (const auto& [name, component, n] : axes(dimension))
+        v.*component = read_number(value.items[n], fmt::format("{}[{}]", path, n), unit, any);
+    return v;
 }
 
 int read_choice(const Value& value, const std::string& path, const Choices& choices) {
@@ -154,8 +169,10 @@ std::string written(double value) {
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
-std::string written(Vec value) {
-    return fmt::format("[{}, {}]", written(value.x), written(value.y));
+std::string written(Vec value, std::int64_t dimension) {
+    std::vector<std::string> items;
+    for (const AxisOfSpace& axis : axes(dimension)) items.push_back(written(value.*axis.component));
+    return joined(items);
 }
 
 std::string joined(const std::vector<std::string>& items) {

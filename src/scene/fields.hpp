@@ -4,6 +4,8 @@
 #include "core/error.hpp"
 #include "scene/schema.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,12 +15,19 @@ namespace sandlane::scene {
 [[nodiscard]] double read_number(const Value& value, const std::string& path, Unit unit, const Range& range);
 [[nodiscard]] std::int64_t read_integer(const Value& value, const std::string& path, const Range& range);
 [[nodiscard]] std::string read_text(const Value& value, const std::string& path);
-[[nodiscard]] Vec read_vector(const Value& value, const std::string& path, Unit unit);
+[[nodiscard]] Vec read_vector(const Value& value, const std::string& path, Unit unit, std::int64_t dimension);
+[[nodiscard]] constexpr std::string_view vector_form(std::int64_t dimension) {
+    return dimension == 3 ? "[x, y, z]" : "[x, y]";
+}
 [[nodiscard]] int read_choice(const Value& value, const std::string& path, const Choices& choices);
 [[nodiscard]] std::string quoted(std::string_view text);
 [[nodiscard]] std::string written(double value);
-[[nodiscard]] std::string written(Vec value);
+[[nodiscard]] std::string written(Vec value, std::int64_t dimension);
 [[nodiscard]] std::string joined(const std::vector<std::string>& items);
+
+// A key of scenes of the other dimension; `instead`: what this one has in its place.
+[[noreturn]] void fail_wrong_dimension(const Value& value, const std::string& path, std::int64_t dimension,
+                                       const std::string& instead);
 
 template <class T> Table<T>& Table<T>::custom(Field<T> field) {
     fields_.push_back(std::move(field));
@@ -28,56 +37,70 @@ template <class T> Table<T>& Table<T>::required() {
     fields_.back().required = true;
     return *this;
 }
+template <class T> Table<T>& Table<T>::only(std::int64_t dimension, const std::string& instead) {
+    fields_.back().only = dimension;
+    fields_.back().instead = instead;
+    return *this;
+}
 template <class T>
 Table<T>& Table<T>::number(std::string name, double T::*member, Unit unit, Range range, std::string doc) {
     return custom({std::move(name), "number", std::string(unit_symbol(unit)), range.text(), std::move(doc),
                    false,
-                   [=](T& t, const Value& v, const std::string& path) {
+                   [=](T& t, const Value& v, const std::string& path, std::int64_t) {
                        t.*member = read_number(v, path, unit, range);
                    },
-                   [=](const T& t) { return written(t.*member); }});
+                   [=](const T& t, std::int64_t) { return written(t.*member); }});
 }
 template <class T>
 Table<T>& Table<T>::integer(std::string name, std::int64_t T::*member, Range range, std::string doc) {
-    return custom(
-        {std::move(name), "integer", "", range.text(), std::move(doc), false,
-         [=](T& t, const Value& v, const std::string& path) { t.*member = read_integer(v, path, range); },
-         [=](const T& t) { return fmt::format("{}", t.*member); }});
+    return custom({std::move(name), "integer", "", range.text(), std::move(doc), false,
+                   [=](T& t, const Value& v, const std::string& path, std::int64_t) {
+                       t.*member = read_integer(v, path, range);
+                   },
+                   [=](const T& t, std::int64_t) { return fmt::format("{}", t.*member); }});
 }
 template <class T> Table<T>& Table<T>::flag(std::string name, bool T::*member, std::string doc) {
     return custom({std::move(name), "true or false", "", "", std::move(doc), false,
-                   [=](T& t, const Value& v, const std::string& path) {
+                   [=](T& t, const Value& v, const std::string& path, std::int64_t) {
                        if (v.kind != Value::Kind::flag) fail_at(v, path, "must be true or false");
                        t.*member = v.flag;
                    },
-                   [=](const T& t) { return std::string(t.*member ? "true" : "false"); }});
+                   [=](const T& t, std::int64_t) { return std::string(t.*member ? "true" : "false"); }});
 }
 template <class T> Table<T>& Table<T>::text(std::string name, std::string T::*member, std::string doc) {
-    return custom({std::move(name), "text", "", "", std::move(doc), false,
-                   [=](T& t, const Value& v, const std::string& path) { t.*member = read_text(v, path); },
-                   [=](const T& t) { return quoted(t.*member); }});
+    return custom(
+        {std::move(name), "text", "", "", std::move(doc), false,
+         [=](T& t, const Value& v, const std::string& path, std::int64_t) { t.*member = read_text(v, path); },
+         [=](const T& t, std::int64_t) { return quoted(t.*member); }});
 }
 template <class T> Table<T>& Table<T>::vector(std::string name, Vec T::*member, Unit unit, std::string doc) {
-    return custom(
-        {std::move(name), "[x, y]", std::string(unit_symbol(unit)), "", std::move(doc), false,
-         [=](T& t, const Value& v, const std::string& path) { t.*member = read_vector(v, path, unit); },
-         [=](const T& t) { return written(t.*member); }});
+    return custom({std::move(name), std::string(vector_form(2)), std::string(unit_symbol(unit)), "",
+                   std::move(doc), false,
+                   [=](T& t, const Value& v, const std::string& path, std::int64_t dimension) {
+                       t.*member = read_vector(v, path, unit, dimension);
+                   },
+                   [=](const T& t, std::int64_t dimension) { return written(t.*member, dimension); },
+                   std::string(vector_form(3))});
 }
 template <class T>
 Table<T>& Table<T>::vectors(std::string name, std::vector<Vec> T::*member, Unit unit, std::string doc) {
-    return custom(
-        {std::move(name), "list of [x, y]", std::string(unit_symbol(unit)), "", std::move(doc), false,
-         [=](T& t, const Value& v, const std::string& path) {
-             if (v.kind != Value::Kind::array) fail_at(v, path, "must be a list of points [[x, y], ...]");
-             (t.*member).clear();
-             for (std::size_t n = 0; n < v.items.size(); ++n)
-                 (t.*member).push_back(read_vector(v.items[n], fmt::format("{}[{}]", path, n), unit));
-         },
-         [=](const T& t) {
-             std::vector<std::string> items;
-             for (const Vec& p : t.*member) items.push_back(written(p));
-             return items.empty() ? std::string() : joined(items);
-         }});
+    return custom({std::move(name), fmt::format("list of {}", vector_form(2)), std::string(unit_symbol(unit)),
+                   "", std::move(doc), false,
+                   [=](T& t, const Value& v, const std::string& path, std::int64_t dimension) {
+                       if (v.kind != Value::Kind::array)
+                           fail_at(v, path,
+                                   fmt::format("must be a list of points [{}, ...]", vector_form(dimension)));
+                       (t.*member).clear();
+                       for (std::size_t n = 0; n < v.items.size(); ++n)
+                           (t.*member).push_back(
+                               read_vector(v.items[n], fmt::format("{}[{}]", path, n), unit, dimension));
+                   },
+                   [=](const T& t, std::int64_t dimension) {
+                       std::vector<std::string> items;
+                       for (const Vec& p : t.*member) items.push_back(written(p, dimension));
+                       return items.empty() ? std::string() : joined(items);
+                   },
+                   fmt::format("list of {}", vector_form(3))});
 }
 
 [[nodiscard]] inline std::string choice_type(const Choices& choices) {
@@ -89,18 +112,19 @@ Table<T>& Table<T>::vectors(std::string name, std::vector<Vec> T::*member, Unit 
 template <class T>
 template <class E>
 Table<T>& Table<T>::choice(std::string name, E T::*member, const Choices& choices, std::string doc) {
-    return custom({std::move(name), choice_type(choices), "", "", std::move(doc), false,
-                   [=](T& t, const Value& v, const std::string& path) {
-                       t.*member = static_cast<E>(read_choice(v, path, choices));
-                   },
-                   [=](const T& t) { return quoted(choices[static_cast<std::size_t>(t.*member)]); }});
+    return custom(
+        {std::move(name), choice_type(choices), "", "", std::move(doc), false,
+         [=](T& t, const Value& v, const std::string& path, std::int64_t) {
+             t.*member = static_cast<E>(read_choice(v, path, choices));
+         },
+         [=](const T& t, std::int64_t) { return quoted(choices[static_cast<std::size_t>(t.*member)]); }});
 }
 template <class T>
 template <class E>
 Table<T>& Table<T>::choices(std::string name, std::vector<E> T::*member, const Choices& choices,
                             std::string doc) {
     return custom({std::move(name), "list of " + choice_type(choices), "", "", std::move(doc), false,
-                   [=](T& t, const Value& v, const std::string& path) {
+                   [=](T& t, const Value& v, const std::string& path, std::int64_t) {
                        if (v.kind != Value::Kind::array)
                            fail_at(v, path, "must be a list of " + choice_type(choices));
                        (t.*member).clear();
@@ -111,7 +135,7 @@ Table<T>& Table<T>::choices(std::string name, std::vector<E> T::*member, const C
                            (t.*member).push_back(chosen);
                        }
                    },
-                   [=](const T& t) {
+                   [=](const T& t, std::int64_t) {
                        std::vector<std::string> items;
                        for (const E e : t.*member)
                            items.push_back(quoted(choices[static_cast<std::size_t>(e)]));
@@ -119,32 +143,50 @@ Table<T>& Table<T>::choices(std::string name, std::vector<E> T::*member, const C
                    }});
 }
 
-template <class T> void Table<T>::read(T& object, const Value& value, const std::string& path) const {
+template <class T>
+const Field<T>& Table<T>::find(const std::string& key, const Value& value, const std::string& path,
+                               std::int64_t dimension) const {
+    for (const Field<T>& field : fields_) {
+        if (field.name != key) continue;
+        if (!field.exists(dimension)) fail_wrong_dimension(value, path, dimension, field.instead);
+        return field;
+    }
+    std::vector<std::string> known;
+    for (const Field<T>& field : fields_)
+        if (field.exists(dimension)) known.push_back(field.name);
+    fail_unknown(value, path, known);
+}
+
+template <class T>
+void Table<T>::read(T& object, const Value& value, const std::string& path, std::int64_t dimension) const {
     if (value.kind != Value::Kind::table) fail_at(value, path, "must be a table");
     const std::string prefix = path.empty() ? "" : path + ".";
-    for (const auto& [key, item] : value.members) {
-        const Field<T>* found = nullptr;
-        for (const Field<T>& field : fields_)
-            if (field.name == key) found = &field;
-        if (found == nullptr) {
-            std::vector<std::string> known;
-            for (const Field<T>& field : fields_) known.push_back(field.name);
-            fail_unknown(item, prefix + key, known);
-        }
-        found->read(object, item, prefix + key);
-    }
+    for (const auto& [key, item] : value.members)
+        find(key, item, prefix + key, dimension).read(object, item, prefix + key, dimension);
     for (const Field<T>& field : fields_)
         if (field.required && value.find(field.name) == nullptr)
             fail_at(value, prefix + field.name,
-                    fmt::format("is missing; it is required ({}: {})", field.type, field.doc));
+                    fmt::format("is missing; it is required ({}: {})", field.type_in(dimension), field.doc));
 }
 
-template <class T> std::string Table<T>::write(const T& object) const {
+template <class T> std::vector<std::string> Table<T>::entries(const T& object, std::int64_t dimension) const {
+    std::vector<std::string> entries;
+    for (const Field<T>& field : fields_) {
+        if (!field.exists(dimension)) continue;
+        if (const std::string value = field.write(object, dimension); !value.empty())
+            entries.push_back(fmt::format("{} = {}", field.name, value));
+    }
+    return entries;
+}
+
+template <class T> std::string Table<T>::write(const T& object, std::int64_t dimension) const {
     std::string text;
-    for (const Field<T>& field : fields_)
-        if (const std::string value = field.write(object); !value.empty())
-            text += fmt::format("{} = {}\n", field.name, value);
+    for (const std::string& entry : entries(object, dimension)) text += entry + "\n";
     return text;
+}
+
+template <class T> std::string Table<T>::write_inline(const T& object, std::int64_t dimension) const {
+    return fmt::format("{{ {} }}", fmt::join(entries(object, dimension), ", "));
 }
 
 template <class T> std::string Table<T>::reference(const std::string& heading) const {
@@ -153,10 +195,11 @@ template <class T> std::string Table<T>::reference(const std::string& heading) c
         heading, doc_);
     const T defaults{};
     for (const Field<T>& field : fields_) {
-        const std::string value = field.required ? "required" : field.write(defaults);
-        text +=
-            fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", field.name, field.type, field.unit,
-                        value.empty() || field.required ? value : "`" + value + "`", field.range, field.doc);
+        const std::int64_t dimension = field.only == 3 ? 3 : 2;
+        const std::string value = field.required ? "required" : field.write(defaults, dimension);
+        text += fmt::format("| `{}` | {} | {} | {} | {} | {}{} |\n", field.name, field.type_in(dimension),
+                            field.unit, value.empty() || field.required ? value : "`" + value + "`",
+                            field.range, field.only == 0 ? "" : fmt::format("{}D: ", field.only), field.doc);
     }
     return text + "\n";
 }

@@ -2,6 +2,7 @@
 #include "core/error.hpp"
 #include "scene/book_format.hpp"
 #include "scene/population.hpp"
+#include "scene/space.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -30,31 +31,50 @@ std::vector<std::string_view> split(std::string_view line) {
 
 struct NumberColumn {
     std::string_view name;
+    std::int64_t only; // 2 or 3: a column of files for scenes of this dimension
     bool positive;
     double& (*at)(GrainState&);
 };
 
 constexpr NumberColumn number_columns[] = {
-    {"x", false, [](GrainState& g) -> double& { return g.position.x; }},
-    {"y", false, [](GrainState& g) -> double& { return g.position.y; }},
-    {"vx", false, [](GrainState& g) -> double& { return g.velocity.x; }},
-    {"vy", false, [](GrainState& g) -> double& { return g.velocity.y; }},
-    {"angle", false, [](GrainState& g) -> double& { return g.angle; }},
-    {"omega", false, [](GrainState& g) -> double& { return g.omega; }},
-    {"radius", true, [](GrainState& g) -> double& { return g.radius; }},
-    {"mass", true, [](GrainState& g) -> double& { return g.mass; }},
+    {"x", 0, false, [](GrainState& g) -> double& { return g.position.x; }},
+    {"y", 0, false, [](GrainState& g) -> double& { return g.position.y; }},
+    {"z", 3, false, [](GrainState& g) -> double& { return g.position.z; }},
+    {"vx", 0, false, [](GrainState& g) -> double& { return g.velocity.x; }},
+    {"vy", 0, false, [](GrainState& g) -> double& { return g.velocity.y; }},
+    {"vz", 3, false, [](GrainState& g) -> double& { return g.velocity.z; }},
+    {"angle", 2, false, [](GrainState& g) -> double& { return g.angle; }},
+    {"omega", 2, false, [](GrainState& g) -> double& { return g.omega; }},
+    {"omega_x", 3, false, [](GrainState& g) -> double& { return g.angular_velocity.x; }},
+    {"omega_y", 3, false, [](GrainState& g) -> double& { return g.angular_velocity.y; }},
+    {"omega_z", 3, false, [](GrainState& g) -> double& { return g.angular_velocity.z; }},
+    {"radius", 0, true, [](GrainState& g) -> double& { return g.radius; }},
+    {"mass", 0, true, [](GrainState& g) -> double& { return g.mass; }},
 };
 
-const NumberColumn* find_column(std::string_view name) {
+bool exists(const NumberColumn& column, std::int64_t dimension) {
+    return column.only == 0 || column.only == dimension;
+}
+
+const NumberColumn* find_column(std::string_view name, std::int64_t dimension) {
     for (const NumberColumn& c : number_columns)
-        if (c.name == name) return &c;
+        if (c.name == name && exists(c, dimension)) return &c;
     return nullptr;
+}
+
+// For messages.
+std::string known_columns(std::int64_t dimension) {
+    std::string names;
+    for (const NumberColumn& c : number_columns)
+        if (exists(c, dimension)) names += fmt::format("{}, ", c.name);
+    return names + "material";
 }
 
 class CsvReader {
 public:
     CsvReader(const Scene& scene, const Grains& grains, const GrainState& prototype, const std::string& file)
-        : scene_(scene), grains_(grains), prototype_(prototype), file_(file) {}
+        : scene_(scene), grains_(grains), prototype_(prototype), file_(file),
+          dimension_(scene.domain.dimension) {}
 
     std::vector<GrainState> read(std::string_view text) {
         std::vector<GrainState> result;
@@ -69,7 +89,9 @@ public:
             else
                 result.push_back(read_grain(line));
         }
-        if (header_.empty()) reject("is empty; a header line x,y,vx,vy,omega,radius is needed");
+        if (header_.empty())
+            reject("is empty; a header line {} is needed",
+                   dimension_ == 3 ? "x,y,z,vx,vy,vz,radius" : "x,y,vx,vy,omega,radius");
         return result;
     }
 
@@ -86,13 +108,14 @@ private:
             return std::count(header_.begin(), header_.end(), name) > 0;
         };
         for (const std::string_view name : header_) {
-            if (name != "material" && find_column(name) == nullptr)
-                reject("\"{}\" is not a column; known: x, y, vx, vy, angle, omega, radius, mass, material",
-                       name);
+            if (name != "material" && find_column(name, dimension_) == nullptr)
+                reject("\"{}\" is not a column{}; known: {}", name,
+                       dimension_ == 3 ? " of a three-dimensional scene" : "", known_columns(dimension_));
             if (std::count(header_.begin(), header_.end(), name) > 1)
                 reject("column \"{}\" is there twice", name);
         }
-        if (!has("x") || !has("y")) reject("column \"{}\" is missing", has("x") ? "y" : "x");
+        for (const AxisOfSpace& axis : axes(dimension_))
+            if (!has(axis.name)) reject("column \"{}\" is missing", axis.name);
         if (!has("radius") && !(grains_.sizes.min > 0))
             reject("column \"radius\" is missing; add it, or give the population a radius");
     }
@@ -103,7 +126,7 @@ private:
             reject("{} values; the header has {} columns", cells.size(), header_.size());
         GrainState g = prototype_;
         for (std::size_t c = 0; c < cells.size(); ++c)
-            if (const NumberColumn* column = find_column(header_[c]); column != nullptr)
+            if (const NumberColumn* column = find_column(header_[c], dimension_); column != nullptr)
                 column->at(g) = number(cells[c], *column);
             else
                 g.material = material(cells[c]);
@@ -130,6 +153,7 @@ private:
     const Grains& grains_;
     const GrainState& prototype_;
     const std::string& file_;
+    std::int64_t dimension_;
     std::vector<std::string_view> header_;
     int line_ = 0;
 };
@@ -161,6 +185,10 @@ std::vector<GrainState> parse_grains(const std::string& text, const std::string&
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     const bool csv = first == std::string::npos || std::isalpha(static_cast<unsigned char>(text[first])) != 0;
     if (csv) return CsvReader(scene, grains, prototype, file).read(text);
+    if (scene.domain.dimension == 3)
+        fail(Exit::invalid_input,
+             "{}: has no header line of column names; a three-dimensional scene needs one. Known columns: {}",
+             file, known_columns(3));
     return free_grains(parse_book(text, file), prototype, file);
 }
 

@@ -4,11 +4,11 @@
 #include "core/memory.hpp"
 #include "scene/cell_grid.hpp"
 #include "scene/population.hpp"
-#include "scene/wall_geometry.hpp"
+#include "scene/space.hpp"
+#include "scene/standing_walls.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -28,14 +28,12 @@ public:
     // One grain, before others are placed around it.
     void check_one(const GrainState& g) const {
         check_place(g);
-        const double numbers[] = {g.velocity.x, g.velocity.y, g.angle, g.omega, g.radius};
-        const bool finite =
-            std::all_of(std::begin(numbers), std::end(numbers), [](double x) { return std::isfinite(x); });
+        const bool finite = is_finite(g.velocity) && is_finite(g.angular_velocity) &&
+                            std::isfinite(g.angle) && std::isfinite(g.omega) && std::isfinite(g.radius);
         if (!finite || !std::isnormal(g.mass) || g.insert_at == std::numeric_limits<double>::infinity())
             fail(Exit::invalid_input,
-                 "{}: velocity ({}, {}) m/s, spin {} rad/s, mass {} kg, time {} s: beyond the range of "
-                 "numbers",
-                 name(g), g.velocity.x, g.velocity.y, g.omega, g.mass, g.insert_at);
+                 "{}: velocity ({}) m/s, spin {} rad/s, mass {} kg, time {} s: beyond the range of numbers",
+                 name(g), text(g.velocity), spin(g), g.mass, g.insert_at);
     }
 
     void check() const {
@@ -45,6 +43,14 @@ public:
     }
 
 private:
+    [[nodiscard]] static bool is_finite(Vec v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    }
+    [[nodiscard]] std::string text(Vec v) const { return components(v, box_.dimension); }
+    [[nodiscard]] std::string spin(const GrainState& g) const {
+        return box_.dimension == 3 ? fmt::format("({})", text(g.angular_velocity))
+                                   : fmt::format("{}", g.omega);
+    }
     [[nodiscard]] std::string name(const GrainState& g) const {
         const auto id = static_cast<std::size_t>(g.id);
         return fmt::format("grain {} ({})", g.id, population_name(scene_, population_[id]));
@@ -52,24 +58,36 @@ private:
 
     // With a shorter period a grain could touch two images of another.
     void check_periods() const {
-        const Vec size = box_.size();
-        for (const int axis : {0, 1}) {
-            const double period = axis == 0 ? size.x : size.y;
-            if (box_.periodic[static_cast<std::size_t>(axis)] && period < 4 * largest_)
+        for (const auto& [axis, component, index] : axes(box_.dimension)) {
+            const double period = box_.size().*component;
+            if (box_.periodic[index] && period < 4 * largest_)
                 fail(Exit::invalid_input,
                      "domain.periodic: the period of {} m along {} is too short for the largest radius {} m; "
                      "allowed: {} m or more (two diameters). Enlarge domain.upper.",
-                     period, axis == 0 ? "x" : "y", largest_, 4 * largest_);
+                     period, axis, largest_, 4 * largest_);
         }
     }
 
     void check_place(const GrainState& g) const {
-        const Vec p = g.position, low = box_.lower, high = box_.upper;
-        if (!(p.x >= low.x && p.x < high.x && p.y >= low.y && p.y < high.y))
+        bool inside = true;
+        for (const AxisOfSpace& axis : axes(box_.dimension)) {
+            const double Vec::*x = axis.component;
+            inside = inside && g.position.*x >= box_.lower.*x && g.position.*x < box_.upper.*x;
+        }
+        if (!inside)
             fail(Exit::invalid_input,
-                 "{}: its centre ({}, {}) m lies outside the domain; allowed: [{}, {}) x [{}, {}) m. Move it "
-                 "or enlarge the domain.",
-                 name(g), p.x, p.y, low.x, high.x, low.y, high.y);
+                 "{}: its centre ({}) m lies outside the domain; allowed: {} m. Move it or enlarge the "
+                 "domain.",
+                 name(g), text(g.position), intervals());
+    }
+
+    // "[0, 1) x [0, 2)".
+    [[nodiscard]] std::string intervals() const {
+        std::string all;
+        for (const auto& [axis, component, index] : axes(box_.dimension))
+            all += fmt::format("{}[{}, {})", all.empty() ? "" : " x ", box_.lower.*component,
+                               box_.upper.*component);
+        return all;
     }
 
     void check_overlaps() const {
@@ -103,8 +121,8 @@ private:
         const double distance = norm(box_.separation(a.position, b.position));
         const std::string more = count > 1 ? fmt::format(" ({} pairs overlap too much)", count) : "";
         if (distance == 0)
-            fail(Exit::invalid_input, "{} and {} have the same centre ({}, {}) m{}. Move one of them.",
-                 name(a), name(b), a.position.x, a.position.y, more);
+            fail(Exit::invalid_input, "{} and {} have the same centre ({}) m{}. Move one of them.", name(a),
+                 name(b), text(a.position), more);
         fail(Exit::invalid_input,
              "{} and {} overlap by {:.4g} m, {:.3g} % of the smaller radius; allowed: up to {:.3g} %{}. "
              "Increase their distance or reduce the radii.",
@@ -112,21 +130,24 @@ private:
     }
 
     void check_walls() const {
-        const std::vector<WallPiece> pieces = walls_at_start(scene_);
+        const StandingWalls walls(scene_);
         for (const GrainState& g : grains_) {
             if (std::isfinite(g.insert_at)) continue;
-            for (const WallPiece& piece : pieces) {
-                const double distance = gap(piece, g.position).distance;
-                if (distance >= (1 - legal_overlap) * g.radius) continue;
-                const std::string& wall = scene_.walls[static_cast<std::size_t>(piece.wall)].name;
-                fail(Exit::invalid_input,
-                     "{}: its centre ({}, {}) m is {:.4g} m from the surface of walls[{}]{}; allowed: {:.4g} "
-                     "m or more (95 % of its radius {} m). Move the grain or the wall.",
-                     name(g), g.position.x, g.position.y, distance, piece.wall,
-                     wall.empty() ? "" : fmt::format(" \"{}\"", wall), (1 - legal_overlap) * g.radius,
-                     g.radius);
-            }
+            const double allowed = (1 - legal_overlap) * g.radius;
+            walls.for_near(g.position, allowed, [&](std::size_t piece) {
+                refuse_wall(g, walls.gap(piece, g.position).distance, walls.wall(piece), allowed);
+            });
         }
+    }
+
+    [[noreturn]] void refuse_wall(const GrainState& g, double distance, int wall, double allowed) const {
+        const std::string& label = scene_.walls[static_cast<std::size_t>(wall)].name;
+        fail(Exit::invalid_input,
+             "{}: its centre ({}) m is {:.4g} m from the surface of walls[{}]{}; allowed: {:.4g} m or more "
+             "(95 "
+             "% of its radius {} m). Move the grain or the wall.",
+             name(g), text(g.position), distance, wall, label.empty() ? "" : fmt::format(" \"{}\"", label),
+             allowed, g.radius);
     }
 
     const Scene& scene_;

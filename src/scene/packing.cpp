@@ -2,18 +2,17 @@
 
 #include "core/error.hpp"
 
-#include <limits>
-#include <numbers>
 #include <numeric>
-#include <optional>
 
 namespace sandlane::scene {
 
 namespace {
 
-// Sequential insertion of equal discs ends at a fraction of 0.547 (Feder 1980); close to it almost every
-// attempt fails, so denser targets start from the lattice.
-constexpr double sequential_limit = 0.51;
+// Sequential insertion of equal discs ends at a fraction of 0.547 (Feder 1980), of equal spheres at 0.384
+// (Cooper 1988); close to it almost every attempt fails, so denser targets start from the lattice.
+double sequential_limit(std::int64_t dimension) {
+    return dimension == 3 ? 0.34 : 0.51;
+}
 constexpr std::uint64_t attempts_per_grain = 20000;
 
 // Relaxation aims at radii that are larger by this factor, so that it ends in finite time with no overlap.
@@ -24,19 +23,27 @@ constexpr double accepted_overlap = 0.01; // of the smaller radius, once the swe
 double largest(const PackingTask& task) {
     double r = 0;
     for (const double radius : task.radii) r = std::max(r, radius);
-    for (const Disc& disc : task.fixed) r = std::max(r, disc.radius);
+    for (const Ball& ball : task.fixed) r = std::max(r, ball.radius);
     return r;
 }
 
 // Nearest point that keeps a grain of radius R inside the region.
 Vec confined(const PackingTask& task, Vec p, double radius) {
-    const auto [wrap_x, wrap_y] = task.wraps();
-    if (!wrap_x) p.x = std::clamp(p.x, task.lower.x + radius, task.upper.x - radius);
-    if (!wrap_y) p.y = std::clamp(p.y, task.lower.y + radius, task.upper.y - radius);
+    for (const AxisOfSpace& axis : axes(task.dimension()))
+        if (double& x = p.*axis.component; !task.wraps(axis))
+            x = std::clamp(x, task.lower.*axis.component + radius, task.upper.*axis.component - radius);
     return task.box.wrapped(p);
 }
 
 // ---- sequential insertion
+
+// Between the sides of the region and the centres.
+Vec margin_of(const PackingTask& task, double radius) {
+    Vec margin;
+    for (const AxisOfSpace& axis : axes(task.dimension()))
+        margin.*axis.component = task.wraps(axis) ? 0 : radius;
+    return margin;
+}
 
 // Largest grains first: they find room only while there is plenty. Empty if some grain found none.
 std::vector<Vec> insert_sequentially(const PackingTask& task) {
@@ -44,9 +51,9 @@ std::vector<Vec> insert_sequentially(const PackingTask& task) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return task.radii[a] > task.radii[b]; });
-    std::vector<Disc> placed = task.fixed;
+    std::vector<Ball> placed = task.fixed;
     CellGrid grid(task.box, 2 * largest(task), placed.size() + order.size());
-    for (const Disc& disc : placed) grid.insert(disc.centre);
+    for (const Ball& ball : placed) grid.insert(ball.centre);
 
     const auto free = [&](Vec p, double radius) {
         bool room = true;
@@ -55,20 +62,18 @@ std::vector<Vec> insert_sequentially(const PackingTask& task) {
             const double reach = radius + placed[n].radius;
             room = room && dot(d, d) >= reach * reach;
         });
-        for (std::size_t w = 0; room && w < task.walls.size(); ++w)
-            room = gap(task.walls[w], p).distance >= radius;
+        if (room) task.walls.for_near(p, radius, [&](std::size_t) { room = false; });
         return room;
     };
-    const auto [wrap_x, wrap_y] = task.wraps();
     std::vector<Vec> centres(order.size());
     for (const std::size_t i : order) {
         const double radius = task.radii[i];
-        const Vec margin = {wrap_x ? 0 : radius, wrap_y ? 0 : radius, 0};
+        const Vec margin = margin_of(task, radius);
         const Vec low = task.lower + margin, size = task.upper - margin - low;
         bool found = false;
         for (std::uint64_t attempt = 0; attempt < attempts_per_grain && !found; ++attempt) {
-            const auto [u, w] = task.random.uniform2(attempt << 32 | i);
-            const Vec p = task.box.wrapped(low + Vec{u * size.x, w * size.y, 0});
+            const Vec u = uniform_point(task.random, attempt << 32 | i, task.dimension());
+            const Vec p = task.box.wrapped(low + scaled(u, size));
             if (!free(p, radius)) continue;
             placed.push_back({p, radius});
             grid.insert(p);
@@ -82,47 +87,14 @@ std::vector<Vec> insert_sequentially(const PackingTask& task) {
 
 // ---- relaxation
 
-// Sites of a triangular lattice that fills the region, one for each grain; surplus sites stay empty at equal
-// intervals. Each centre is displaced uniformly by up to `jitter` spacings.
-std::vector<Vec> lattice_start(const PackingTask& task, double jitter) {
-    const auto n = static_cast<std::int64_t>(task.radii.size());
-    const Vec size = task.upper - task.lower;
-    const double ideal = std::sqrt(2 * size.x * size.y / (std::sqrt(3.0) * static_cast<double>(n)));
-    const auto middle = static_cast<std::int64_t>(size.x / ideal);
-    std::int64_t columns = 1, rows = n;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::int64_t c = std::max<std::int64_t>(1, middle - 8); c <= middle + 8; ++c) {
-        std::int64_t r = (n + c - 1) / c;
-        if (task.wraps()[1]) r += r % 2; // the rows alternate around the period
-        const double dx = size.x / static_cast<double>(c), dy = size.y / static_cast<double>(r);
-        // The closest two sites of this lattice should be as far apart as possible.
-        const double cost = -std::min(dx, std::hypot(0.5 * dx, dy));
-        if (cost >= least) continue;
-        least = cost;
-        columns = c;
-        rows = r;
-    }
-    const Vec step = {size.x / static_cast<double>(columns), size.y / static_cast<double>(rows), 0};
-    std::vector<Vec> centres;
-    for (std::int64_t k = 0; k < n; ++k) {
-        const std::int64_t site = k * columns * rows / n, row = site / columns, column = site % columns;
-        const auto [u, w] = task.random.uniform2(static_cast<std::uint64_t>(k));
-        const double x = static_cast<double>(column) + 0.25 + 0.5 * static_cast<double>(row % 2);
-        const double y = static_cast<double>(row) + 0.5;
-        centres.push_back(task.lower +
-                          Vec{(x + jitter * (2 * u - 1)) * step.x, (y + jitter * (2 * w - 1)) * step.y, 0});
-    }
-    return centres;
-}
-
 class Relaxation {
 public:
     Relaxation(const PackingTask& task, std::vector<Vec> centres)
         : task_(task), centres_(std::move(centres)), radii_(task.radii), movable_(task.radii.size()) {
         for (std::size_t i = 0; i < movable_; ++i) centres_[i] = confined(task, centres_[i], radii_[i]);
-        for (const Disc& disc : task.fixed) {
-            centres_.push_back(disc.centre);
-            radii_.push_back(disc.radius);
+        for (const Ball& ball : task.fixed) {
+            centres_.push_back(ball.centre);
+            radii_.push_back(ball.radius);
         }
         reach_ = 2 * largest(task) * clearance;
         skin_ = 0.15 * reach_;
@@ -148,7 +120,7 @@ public:
         double scale = 1;
         for (const auto& [i, j] : pairs_) scale = std::min(scale, distance(i, j) / (radii_[i] + radii_[j]));
         for (const auto& [i, w] : near_walls_)
-            scale = std::min(scale, std::max(0.0, gap(task_.walls[w], centres_[i]).distance) / radii_[i]);
+            scale = std::min(scale, std::max(0.0, task_.walls.gap(w, centres_[i]).distance) / radii_[i]);
         return scale;
     }
 
@@ -172,9 +144,9 @@ private:
                 if (once && distance(i, j) < clearance * (radii_[i] + radii_[j]) + skin_)
                     pairs_.push_back({i, j});
             });
-            for (std::size_t w = 0; w < task_.walls.size(); ++w)
-                if (gap(task_.walls[w], centres_[i]).distance < clearance * radii_[i] + skin_)
-                    near_walls_.push_back({i, w});
+            task_.walls.for_near(centres_[i], clearance * radii_[i] + skin_, [&](std::size_t w) {
+                near_walls_.push_back({i, w});
+            });
         }
         listed_ = centres_;
     }
@@ -198,7 +170,7 @@ private:
             if (j < movable_) centres_[j] = centres_[j] + (share * (reach - r)) * along;
         }
         for (const auto& [i, w] : near_walls_) {
-            const Gap g = gap(task_.walls[w], centres_[i]);
+            const Gap g = task_.walls.gap(w, centres_[i]);
             if (const double lacking = clearance * radii_[i] - g.distance; lacking > 0)
                 centres_[i] = centres_[i] + lacking * g.away;
         }
@@ -212,7 +184,7 @@ private:
             worst =
                 std::max(worst, (radii_[i] + radii_[j] - distance(i, j)) / std::min(radii_[i], radii_[j]));
         for (const auto& [i, w] : near_walls_)
-            worst = std::max(worst, 1 - gap(task_.walls[w], centres_[i]).distance / radii_[i]);
+            worst = std::max(worst, 1 - task_.walls.gap(w, centres_[i]).distance / radii_[i]);
         return worst;
     }
 
@@ -224,36 +196,41 @@ private:
     std::vector<Pair> pairs_, near_walls_; // near_walls_: grain and wall piece
 };
 
+void check_width(const PackingTask& task) {
+    const double widest = 2 * *std::max_element(task.radii.begin(), task.radii.end());
+    const Vec size = task.size();
+    for (const AxisOfSpace& axis : axes(task.dimension()))
+        if (!task.wraps(axis) && size.*axis.component < widest)
+            fail(Exit::invalid_input,
+                 "{}: the region of {} m does not hold a grain of diameter {} m; enlarge lower and upper",
+                 task.name, extents(size, task.dimension()), widest);
+}
+
 } // namespace
 
 double PackingTask::fraction() const {
-    double area = 0;
-    for (const double radius : radii) area += std::numbers::pi * radius * radius;
-    return area / ((upper.x - lower.x) * (upper.y - lower.y));
+    double grains = 0;
+    for (const double radius : radii) grains += grain_content(radius, dimension());
+    return grains / content(size(), dimension());
 }
 
 std::vector<Vec> pack(const PackingTask& task) {
     if (task.radii.empty()) return {};
-    const auto [wrap_x, wrap_y] = task.wraps();
-    const double widest = 2 * *std::max_element(task.radii.begin(), task.radii.end());
-    const Vec size = task.upper - task.lower;
-    if ((!wrap_x && size.x < widest) || (!wrap_y && size.y < widest))
-        fail(Exit::invalid_input,
-             "{}: the region of {} x {} m does not hold a grain of diameter {} m; enlarge lower and upper",
-             task.name, size.x, size.y, widest);
-    if (task.fraction() <= sequential_limit)
+    check_width(task);
+    if (task.fraction() <= sequential_limit(task.dimension()))
         if (std::vector<Vec> centres = insert_sequentially(task); !centres.empty()) return centres;
     // Order grows as the jitter shrinks; dense targets need some.
     double scale = 0;
     for (const double jitter : {0.5, 0.2, 0.05}) {
-        Relaxation relaxation(task, lattice_start(task, jitter));
+        Relaxation relaxation(task, jittered_lattice(task, jitter));
         if (relaxation.run()) return relaxation.centres();
         scale = std::max(scale, relaxation.fitting_scale());
     }
+    const double reached = task.fraction() * scale * scale * (task.dimension() == 3 ? scale : 1);
     fail(Exit::invalid_input,
          "{}: {} grains of packing fraction {:.4g} do not fit without overlap; reached {:.4g}. Lower count "
          "or packing_fraction, or enlarge the region.",
-         task.name, task.radii.size(), task.fraction(), task.fraction() * scale * scale);
+         task.name, task.radii.size(), task.fraction(), reached);
 }
 
 } // namespace sandlane::scene

@@ -1,17 +1,19 @@
-// Random positions without overlap: sequential insertion while there is room, else a jittered triangular
-// lattice whose overlaps are pushed apart.
+// Random positions without overlap: sequential insertion while there is room, else a jittered lattice,
+// triangular or face-centred cubic, whose overlaps are pushed apart.
 #pragma once
 
 #include "core/rng.hpp"
 #include "scene/cell_grid.hpp"
-#include "scene/wall_geometry.hpp"
+#include "scene/space.hpp"
+#include "scene/standing_walls.hpp"
 
 #include <string>
 #include <vector>
 
 namespace sandlane::scene {
 
-struct Disc {
+// A disc or a sphere.
+struct Ball {
     Vec centre;
     double radius = 0;
 };
@@ -21,17 +23,23 @@ struct PackingTask {
     Box box;          // the whole domain
     Vec lower, upper; // region that holds the grains whole, except across a periodic side of the domain
     std::vector<double> radii;
-    std::vector<Disc> fixed;      // grains that are there already
-    std::vector<WallPiece> walls; // to keep clear of
-    Random random;                // attempt a of grain i uses number a 2^32 + i
+    std::vector<Ball> fixed; // grains that are there already
+    StandingWalls walls;     // to keep clear of
+    Random random;           // attempt a of grain i uses number a 2^32 + i
 
+    [[nodiscard]] std::int64_t dimension() const { return box.dimension; }
+    [[nodiscard]] Vec size() const { return upper - lower; }
     // The region reaches from side to side of a periodic axis, so that grains may stick out of it.
-    [[nodiscard]] std::array<bool, 2> wraps() const {
-        return {box.periodic[0] && lower.x <= box.lower.x && upper.x >= box.upper.x,
-                box.periodic[1] && lower.y <= box.lower.y && upper.y >= box.upper.y};
+    [[nodiscard]] bool wraps(const AxisOfSpace& axis) const {
+        const double Vec::*x = axis.component;
+        return box.periodic[axis.index] && lower.*x <= box.lower.*x && upper.*x >= box.upper.*x;
     }
-    [[nodiscard]] double fraction() const; // area of the grains over area of the region
+    [[nodiscard]] double fraction() const; // area or volume of the grains over that of the region
 };
+
+// Sites of a lattice that fills the region, one for each grain; surplus sites stay empty at equal intervals.
+// Each centre is displaced uniformly by up to `jitter` spacings.
+[[nodiscard]] std::vector<Vec> jittered_lattice(const PackingTask& task, double jitter);
 
 // One centre for each radius. Throws Error(invalid_input) that says which packing fraction was reached.
 [[nodiscard]] std::vector<Vec> pack(const PackingTask& task);

@@ -5,9 +5,9 @@
 #include "core/rng.hpp"
 #include "scene/packing.hpp"
 #include "scene/radius_law.hpp"
+#include "scene/space.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace sandlane::scene {
 
@@ -21,6 +21,8 @@ int material_index(const Scene& scene, const std::string& name) {
 
 struct Region {
     Vec lower, upper;
+
+    [[nodiscard]] Vec size() const { return upper - lower; }
 };
 
 Region region(const Scene& scene, const Grains& grains) {
@@ -32,10 +34,11 @@ class Maker {
 public:
     Maker(const Scene& scene, std::size_t index)
         : scene_(scene), grains_(scene.grains[index]), index_(static_cast<std::uint32_t>(index)),
-          name_(population_name(scene, index)), lower_(region(scene, grains_).lower),
-          upper_(region(scene, grains_).upper) {
+          name_(population_name(scene, index)), dimension_(scene.domain.dimension),
+          region_(region(scene, grains_)) {
         prototype_.material = material_index(scene, grains_.material);
         prototype_.omega = grains_.omega;
+        prototype_.angular_velocity = grains_.angular_velocity;
     }
 
     std::vector<GrainState> make(const std::vector<GrainState>& placed) const {
@@ -80,28 +83,31 @@ private:
     [[nodiscard]] std::vector<GrainState> lattice() const {
         const Box box(scene_.domain);
         const Random displacement = stream(Stream::jitter);
+        const std::int64_t columns = grains_.counts[0], rows = grains_.counts[1], layers = grains_.counts[2];
         std::vector<GrainState> grains;
-        for (std::int64_t row = 0; row < grains_.counts[1]; ++row)
-            for (std::int64_t column = 0; column < grains_.counts[0]; ++column) {
-                const auto [u, w] = displacement.uniform2(grains.size());
-                const double shift = grains_.triangular && row % 2 != 0 ? 0.5 : 0;
-                const double x = static_cast<double>(column) + shift + grains_.jitter * (2 * u - 1);
-                const double y = static_cast<double>(row) + grains_.jitter * (2 * w - 1);
-                const Vec p = grains_.lower + Vec{x * grains_.spacing.x, y * grains_.spacing.y, 0};
-                grains.push_back(grain(box.wrapped(p), radius(grains.size())));
-            }
+        for (std::int64_t layer = 0; layer < layers; ++layer)
+            for (std::int64_t row = 0; row < rows; ++row)
+                for (std::int64_t column = 0; column < columns; ++column) {
+                    const std::size_t n = grains.size();
+                    const Vec at =
+                        site(column, row, layer) + uniform_shift(displacement, n, grains_.jitter, dimension_);
+                    grains.push_back(
+                        grain(box.wrapped(grains_.lower + scaled(at, grains_.spacing)), radius(n)));
+                }
         return grains;
     }
 
+    // In units of the spacing.
+    [[nodiscard]] Vec site(std::int64_t column, std::int64_t row, std::int64_t layer) const {
+        const double across = grains_.staggered && layer % 2 != 0 ? 0.5 : 0;
+        const double along = grains_.triangular && row % 2 != 0 ? 0.5 : across;
+        return {static_cast<double>(column) + along, static_cast<double>(row) + across,
+                static_cast<double>(layer)};
+    }
+
     [[nodiscard]] std::vector<GrainState> random(const std::vector<GrainState>& placed) const {
-        PackingTask task{name_,
-                         Box(scene_.domain),
-                         lower_,
-                         upper_,
-                         random_radii(),
-                         {},
-                         walls_at_start(scene_),
-                         stream(Stream::position)};
+        PackingTask task{name_, Box(scene_.domain),    region_.lower,           region_.upper, random_radii(),
+                         {},    StandingWalls(scene_), stream(Stream::position)};
         for (const GrainState& g : placed)
             if (!std::isfinite(g.insert_at)) task.fixed.push_back({g.position, g.radius});
         const std::vector<Vec> centres = pack(task);
@@ -112,16 +118,16 @@ private:
 
     // `count` radii, or as many as come closest to the packing fraction.
     [[nodiscard]] std::vector<double> random_radii() const {
-        const double wanted = grains_.packing_fraction * (upper_.x - lower_.x) * (upper_.y - lower_.y);
+        const double wanted = grains_.packing_fraction * content(region_.size(), dimension_);
         std::vector<double> radii;
-        double area = 0;
+        double filled = 0;
         for (std::size_t i = 0;; ++i) {
-            const double r = radius(i), disc = std::numbers::pi * r * r;
+            const double r = radius(i), next = grain_content(r, dimension_);
             if (grains_.count > 0 ? static_cast<std::int64_t>(i) >= grains_.count
-                                  : area + 0.5 * disc > wanted)
+                                  : filled + 0.5 * next > wanted)
                 return radii;
             radii.push_back(r);
-            area += disc;
+            filled += next;
         }
     }
 
@@ -130,9 +136,8 @@ private:
         const Random place = stream(Stream::pour);
         std::vector<GrainState> grains;
         for (std::int64_t n = 0; n < grains_.count; ++n) {
-            const auto [u, w] = place.uniform2(static_cast<std::uint64_t>(n));
-            const Vec p = lower_ + Vec{u * (upper_.x - lower_.x), w * (upper_.y - lower_.y), 0};
-            grains.push_back(grain(p, radius(grains.size())));
+            const Vec u = uniform_point(place, static_cast<std::uint64_t>(n), dimension_);
+            grains.push_back(grain(region_.lower + scaled(u, region_.size()), radius(grains.size())));
             grains.back().insert_at = grains_.start + static_cast<double>(n) / grains_.rate;
         }
         return grains;
@@ -145,6 +150,7 @@ private:
             grains.back().velocity = item.velocity;
             grains.back().angle = item.angle;
             grains.back().omega += item.omega;
+            grains.back().angular_velocity = grains.back().angular_velocity + item.angular_velocity;
             grains.back().mass = item.mass;
         }
         return grains;
@@ -164,8 +170,7 @@ private:
         if (grains_.thermal_speed > 0 && grains.size() > 1) {
             const Random thermal = stream(Stream::velocity);
             for (std::size_t i = 0; i < grains.size(); ++i) {
-                const auto [x, y] = thermal.normal2(i);
-                const Vec part = grains_.thermal_speed * Vec{x, y, 0};
+                const Vec part = grains_.thermal_speed * normal_vector(thermal, i, dimension_);
                 grains[i].velocity = grains[i].velocity + part;
                 mean = mean + (1 / static_cast<double>(grains.size())) * part;
             }
@@ -177,7 +182,8 @@ private:
     const Grains& grains_;
     std::uint32_t index_;
     std::string name_;
-    Vec lower_, upper_; // region
+    std::int64_t dimension_;
+    Region region_;
     GrainState prototype_;
 };
 
@@ -185,14 +191,15 @@ private:
 
 double expected_grains(const Scene& scene, std::size_t index) {
     const Grains& g = scene.grains[index];
-    const auto [lower, upper] = region(scene, g);
+    const std::int64_t dimension = scene.domain.dimension;
     switch (g.kind) {
     case GrainKind::lattice:
-        return static_cast<double>(g.counts[0]) * static_cast<double>(g.counts[1]);
+        return static_cast<double>(g.counts[0]) * static_cast<double>(g.counts[1]) *
+               static_cast<double>(g.counts[2]);
     case GrainKind::random:
         if (g.count == 0)
-            return g.packing_fraction * (upper.x - lower.x) * (upper.y - lower.y) /
-                   (std::numbers::pi * g.sizes.min * g.sizes.max);
+            return g.packing_fraction * content(region(scene, g).size(), dimension) /
+                   grain_content(std::sqrt(g.sizes.min * g.sizes.max), dimension);
         return static_cast<double>(g.count);
     case GrainKind::pour:
         return static_cast<double>(g.count);

@@ -20,8 +20,9 @@ namespace sandlane::scene {
 // "grains[2] "beads"" for messages.
 [[nodiscard]] std::string population_name(const Scene& scene, std::size_t index);
 
-// Grains of a file: CSV with a header line of column names, or free grains of the book's 25-column format.
-// Columns that the file lacks are left at what `prototype` says. Throws Error(invalid_input) "file:line:
+// Grains of a file: CSV with a header line of column names, or in 2D free grains of the book's 25-column
+// format. Columns that the file lacks are left at what `prototype` says. Throws Error(invalid_input)
+// "file:line:
 // ...".
 [[nodiscard]] std::vector<GrainState> parse_grains(const std::string& text, const std::string& file,
                                                    const Scene& scene, const Grains& grains,

@@ -74,37 +74,49 @@ void apply_override(Value& root, const std::string& text) {
 
 // ---- from the tree to the structs
 
+// Vectors cannot be read without it.
+std::int64_t dimension_of(const Value& root) {
+    Domain domain;
+    if (const Value* table = root.find("domain"); table != nullptr)
+        if (const Value* value = table->find("dimension"); value != nullptr)
+            domain.dimension = read_integer(*value, "domain.dimension", dimensions);
+    return domain.dimension;
+}
+
 template <class T>
-void read_list(std::vector<T>& list, const Table<T>& table, const Value& value, const std::string& name) {
+void read_list(std::vector<T>& list, const Table<T>& table, const Value& value, const std::string& name,
+               std::int64_t dimension) {
     if (value.kind != Value::Kind::array)
         fail_at(value, name, fmt::format("must be a list of tables: write [[{}]]", name));
     for (std::size_t n = 0; n < value.items.size(); ++n)
-        table.read(list.emplace_back(), value.items[n], fmt::format("{}[{}]", name, n));
+        table.read(list.emplace_back(), value.items[n], fmt::format("{}[{}]", name, n), dimension);
 }
 
 Scene scene_from(const Value& root) {
     Scene scene;
+    const std::int64_t dimension = dimension_of(root);
+    if (dimension == 3) scene.md.inertia = Inertia::sphere; // the default
     Value rest = root;
     rest.members.clear();
     for (const auto& [key, value] : root.members) {
         if (key == "domain")
-            domain_table().read(scene.domain, value, key);
+            domain_table().read(scene.domain, value, key, dimension);
         else if (key == "materials")
-            read_list(scene.materials, material_table(), value, key);
+            read_list(scene.materials, material_table(), value, key, dimension);
         else if (key == "pairs")
-            read_list(scene.pairs, pair_table(), value, key);
+            read_list(scene.pairs, pair_table(), value, key, dimension);
         else if (key == "grains")
-            read_list(scene.grains, grains_table(), value, key);
+            read_list(scene.grains, grains_table(), value, key, dimension);
         else if (key == "walls")
-            read_list(scene.walls, wall_table(), value, key);
+            read_list(scene.walls, wall_table(), value, key, dimension);
         else if (key == "motions")
-            read_list(scene.motions, motion_table(), value, key);
+            read_list(scene.motions, motion_table(), value, key, dimension);
         else if (key == "md")
-            md_table().read(scene.md, value, key);
+            md_table().read(scene.md, value, key, dimension);
         else if (key == "analysis")
-            read_list(scene.analyses, analysis_table(), value, key);
+            read_list(scene.analyses, analysis_table(), value, key, dimension);
         else if (key == "output")
-            output_table().read(scene.output, value, key);
+            output_table().read(scene.output, value, key, dimension);
         else
             rest.members.push_back({key, value});
     }
@@ -116,15 +128,16 @@ Scene scene_from(const Value& root) {
         for (const std::string& k : known) found = found || k == key;
         if (!found) fail_unknown(value, key, known);
     }
-    scene_table().read(scene, rest, "");
+    scene_table().read(scene, rest, "", dimension);
     if (root.find("domain") == nullptr)
         fail_at(root, "domain", "is missing; write [domain] with lower and upper");
     return scene;
 }
 
 template <class T>
-void write_list(std::string& text, const char* name, const Table<T>& table, const std::vector<T>& list) {
-    for (const T& entry : list) text += fmt::format("\n[[{}]]\n{}", name, table.write(entry));
+void write_list(std::string& text, const char* name, const Table<T>& table, const std::vector<T>& list,
+                std::int64_t dimension) {
+    for (const T& entry : list) text += fmt::format("\n[[{}]]\n{}", name, table.write(entry, dimension));
 }
 
 } // namespace
@@ -139,23 +152,27 @@ Scene parse_scene(std::string_view text, const std::string& name, const Override
 
 Scene read_scene(const std::filesystem::path& path, const Overrides& overrides) {
     Scene scene = parse_scene(read_file(path), path.string(), overrides);
-    for (Grains& g : scene.grains) // a checkpoint is continued from another folder
-        if (!g.file.empty())
-            g.file = std::filesystem::absolute(path.parent_path() / g.file).lexically_normal().string();
+    const auto find = [&](std::string& file) { // a checkpoint is continued from another folder
+        if (!file.empty())
+            file = std::filesystem::absolute(path.parent_path() / file).lexically_normal().string();
+    };
+    for (Grains& g : scene.grains) find(g.file);
+    for (Wall& w : scene.walls) find(w.file);
     return scene;
 }
 
 std::string write_scene(const Scene& scene) {
-    std::string text = scene_table().write(scene);
-    text += "\n[domain]\n" + domain_table().write(scene.domain);
-    write_list(text, "materials", material_table(), scene.materials);
-    write_list(text, "pairs", pair_table(), scene.pairs);
-    write_list(text, "grains", grains_table(), scene.grains);
-    write_list(text, "walls", wall_table(), scene.walls);
-    write_list(text, "motions", motion_table(), scene.motions);
-    text += "\n[md]\n" + md_table().write(scene.md);
-    write_list(text, "analysis", analysis_table(), scene.analyses);
-    text += "\n[output]\n" + output_table().write(scene.output);
+    const std::int64_t dimension = scene.domain.dimension;
+    std::string text = scene_table().write(scene, dimension);
+    text += "\n[domain]\n" + domain_table().write(scene.domain, dimension);
+    write_list(text, "materials", material_table(), scene.materials, dimension);
+    write_list(text, "pairs", pair_table(), scene.pairs, dimension);
+    write_list(text, "grains", grains_table(), scene.grains, dimension);
+    write_list(text, "walls", wall_table(), scene.walls, dimension);
+    write_list(text, "motions", motion_table(), scene.motions, dimension);
+    text += "\n[md]\n" + md_table().write(scene.md, dimension);
+    write_list(text, "analysis", analysis_table(), scene.analyses, dimension);
+    text += "\n[output]\n" + output_table().write(scene.output, dimension);
     return text;
 }
 

@@ -13,8 +13,8 @@ namespace sandlane::scene {
 // One --set path=value override; the value is TOML ("md.dt=1e-6", "materials.0.friction=0.3").
 using Overrides = std::vector<std::string>;
 
-// Throws Error(invalid_input) with "file:line: key: ..." for the first problem found. A file of grains is
-// looked for beside the scene file; in the scene its name is absolute.
+// Throws Error(invalid_input) with "file:line: key: ..." for the first problem found. Files of grains
+// and of triangles are looked for beside the scene file; in the scene their names are absolute.
 [[nodiscard]] Scene read_scene(const std::filesystem::path& path, const Overrides& overrides = {});
 [[nodiscard]] Scene parse_scene(std::string_view text, const std::string& name,
                                 const Overrides& overrides = {});

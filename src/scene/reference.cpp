@@ -42,6 +42,11 @@ A run writes the scene with every default filled in to `scene.toml` in its folde
 s, ms, us, ns, min, h; N, mN, kN, MN; Pa, kPa, MPa, GPa; J, Hz, rpm, rad, deg, %, and their products, quotients and
 powers. As an angular velocity `"8 Hz"` is 8 turns per second, 50.3 rad/s. The wrong dimension is an error.
 
+**Two or three dimensions.** With `domain.dimension = 3` vectors have three components, `[x, y, z]`, wherever the
+tables say `[x, y]`, and `counts` has columns, rows and layers. A key whose meaning starts with "2D:" or "3D:" exists in
+scenes of that dimension only, and so do kinds of walls, the bodies and inertia of discs, the neighbour methods `lattice`
+and `lattice-half`, and the trajectory format `book` (all 2D).
+
 **Changes from the command line.** `--set path=value` replaces a key after the file was read, as often as needed:
 
     sandlane run FILE --set md.duration=0.5 --set materials.0.friction=0.1 --set 'grains.0.radius="4 mm"'

@@ -1,5 +1,5 @@
 // The scene: what a TOML file says, as plain validated structs. Lengths in m, masses in kg, times in s,
-// angles in rad. schema.cpp declares every key once (type, unit, default, range, documentation) by pointing
+// angles in rad. The schema declares every key once (type, unit, default, range, documentation) by pointing
 // at these members.
 #pragma once
 
@@ -25,6 +25,7 @@ enum class Integrator { gear4, gear5, gear6, velocity_verlet };
 enum class NeighbourMethod { automatic, brute_force, link_cells, lattice, lattice_half, verlet };
 enum class Inertia { disc, sphere };  // J = m R^2/2 or 2/5 m R^2 (docs/physics.md 1)
 enum class Body { sphere, disc };     // mass of a grain: 4/3 pi R^3 rho, or pi R^2 rho (per metre of depth)
+enum class LeverArm { undeformed, plane }; // R, or the distance to the plane of the contact (docs/physics.md 2)
 enum class Outside { error, remove }; // what happens to a grain that leaves an open side of the domain
 enum class GrainKind { lattice, random, pour, list, file };
 enum class SizeLaw { constant, uniform, inverse_square, lognormal };
@@ -47,23 +48,28 @@ struct Domain {
 struct Material {
     std::string name;
     double density = 2500;           // kg/m^3 (body = "disc": kg/m^3 times one metre of depth)
-    double stiffness = 0;            // k, N/m: linear dashpot
+    double stiffness = 0;            // k, N/m: linear dashpot; Walton-Braun: Y_l of loading
+    double unloading_stiffness = 0;  // Y_u, N/m: Walton-Braun
     double damping = 0;              // gamma, kg/s: linear dashpot
     double young = 0;                // Y, Pa: viscoelastic
     double poisson = 0.3;            // nu
     double dissipation = 0;          // A, s: viscoelastic
     double friction = 0;             // mu
     double tangential_damping = 0;   // gamma_t, kg/s: Haff-Werner, Cundall-Strack
-    double tangential_stiffness = 0; // k_t, N/m: Cundall-Strack
+    double tangential_stiffness = 0; // k_t, N/m: Cundall-Strack; k_0: Walton-Braun
+    double cohesion = 0;             // Pa: cohesive viscoelastic, pull over area of contact
+    double rolling_friction = 0;     // mu_r: couple over R_eff f_n, at most
+    double rolling_damping = 0;      // gamma_r, N m s: couple over the rate of rolling
 };
 
 // Overrides the mixing rules for one pair of materials; negative: keep the rule.
 struct MaterialPair {
     std::string first, second;
-    double stiffness = -1, damping = -1;
+    double stiffness = -1, unloading_stiffness = -1, damping = -1;
     double young = -1,
            dissipation = -1; // young: Y/(1-nu^2) of the pair, so that K = (4/3) sqrt(R_eff) * young / 2
     double friction = -1, tangential_damping = -1, tangential_stiffness = -1;
+    double cohesion = -1, rolling_friction = -1, rolling_damping = -1;
 };
 
 // R from one uniform number per grain: constant = radius_min; uniform in [min, max]; inverse_square: pdf ~
@@ -91,7 +97,8 @@ struct Grains {
     Vec lower, upper; // region of centres (lattice: lower is the first centre); default: the domain
     std::vector<std::int64_t> counts{0, 0, 1}; // lattice: columns, rows, layers
     Vec spacing;                               // lattice: distance of neighbouring centres
-    bool triangular = false;                   // lattice: every second row is shifted by half a column
+    bool triangular = false;                   // 2D lattice: every second row is shifted by half a column
+    bool staggered = false;                    // 3D lattice: every second layer is shifted along x and y
     double jitter = 0;                         // lattice: uniform displacement in units of the spacing
     std::int64_t count = 0;                    // random, pour: number of grains
     double packing_fraction = 0;               // random: used when count = 0
@@ -157,6 +164,8 @@ struct Md {
     double delta = 0.1;   // lattice: largest overlap in units of the smaller radius
     Inertia inertia = Inertia::disc;
     Body body = Body::sphere;
+    bool cut = true; // normal forces end at zero: contacts do not pull
+    LeverArm lever_arm = LeverArm::undeformed;
 };
 
 enum class Axis { x, y, z };

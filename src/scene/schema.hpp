@@ -1,5 +1,6 @@
-// The schema: every key of a scene, once. A key is one line in schema.cpp that points at a member of a scene
-// struct; parsing, ranges, units, the effective scene, help and the reference tables follow from it.
+// The schema: every key of a scene, once. A key is one line in schema.cpp, or schema_bodies.cpp for grains,
+// walls and motions, that points at a member of a scene struct; parsing, ranges, units, the effective scene,
+// help and the reference tables follow from it.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -34,12 +35,24 @@ inline constexpr Range any{};
     return {low, high, false};
 }
 
-// One key of a table.
+inline constexpr Range dimensions = between(2, 3);
+
+// One key of a table. Reading and writing know the dimension of the scene, 2 or 3: a vector has as many
+// components.
 template <class T> struct Field {
     std::string name, type, unit, range, doc;
     bool required = false;
-    std::function<void(T&, const Value&, const std::string& path)> read;
-    std::function<std::string(const T&)> write; // TOML text of the value; empty: leave out
+    std::function<void(T&, const Value&, const std::string& path, std::int64_t dimension)> read;
+    // TOML text of the value; empty: leave out.
+    std::function<std::string(const T&, std::int64_t dimension)> write;
+    std::string type_in_space{}; // in three dimensions; empty: the same
+    std::int64_t only = 0;       // 2 or 3: a key of scenes of this dimension
+    std::string instead{};       // what scenes of the other dimension use
+
+    [[nodiscard]] bool exists(std::int64_t dimension) const { return only == 0 || only == dimension; }
+    [[nodiscard]] const std::string& type_in(std::int64_t dimension) const {
+        return dimension == 3 && !type_in_space.empty() ? type_in_space : type;
+    }
 };
 
 // Spellings of the choices of an enum, in the order of its enumerators.
@@ -59,21 +72,31 @@ public:
     template <class E>
     Table& choices(std::string name, std::vector<E> T::*member, const Choices& choices, std::string doc);
     Table& custom(Field<T> field);
-    Table& required(); // the last key
+    // Of the last key:
+    Table& required();
+    Table& only(std::int64_t dimension, const std::string& instead = {});
 
-    void read(T& object, const Value& value, const std::string& path) const;
-    [[nodiscard]] std::string write(const T& object) const;
+    void read(T& object, const Value& value, const std::string& path, std::int64_t dimension) const;
+    // One line for each key, or all of them in braces.
+    [[nodiscard]] std::string write(const T& object, std::int64_t dimension) const;
+    [[nodiscard]] std::string write_inline(const T& object, std::int64_t dimension) const;
     [[nodiscard]] std::string reference(const std::string& heading) const; // Markdown
     [[nodiscard]] const std::vector<Field<T>>& fields() const { return fields_; }
 
 private:
+    [[nodiscard]] const Field<T>& find(const std::string& key, const Value& value, const std::string& path,
+                                       std::int64_t dimension) const;
+    // "key = value" of every key that has one.
+    [[nodiscard]] std::vector<std::string> entries(const T& object, std::int64_t dimension) const;
+
     std::string doc_;
     std::vector<Field<T>> fields_;
 };
 
-// Choices that the command line and outputs spell too.
+// Choices that others spell too: the command line, outputs, messages.
 const Choices& normal_choices();
 const Choices& tangential_choices();
+const Choices& wall_choices();
 const Choices& neighbour_choices();
 const Choices& colour_choices();
 const Choices& trajectory_choices();

@@ -63,7 +63,7 @@ struct Declared {
 };
 
 const Declared& declared(Unit unit) {
-    static constexpr std::array<Declared, 13> table = {{{"", "0.5", {}},
+    static constexpr std::array<Declared, 14> table = {{{"", "0.5", {}},
                                                         {"m", "5 mm", {1, 0, 0}},
                                                         {"s", "2 ms", {0, 0, 1}},
                                                         {"rad", "30 deg", {}},
@@ -72,6 +72,7 @@ const Declared& declared(Unit unit) {
                                                         {"m/s^2", "9.81 m/s^2", {1, 0, -2}},
                                                         {"N/m", "10 kN/m", {0, 1, -2}},
                                                         {"kg/s", "3 g/s", {0, 1, -1}},
+                                                        {"N m s", "1e-6 N m s", {2, 1, -1}},
                                                         {"Pa", "100 MPa", {-1, 1, -2}},
                                                         {"kg/m^3", "2.5 g/cm^3", {-3, 1, 0}},
                                                         {"kg", "3 g", {0, 1, 0}},

@@ -16,6 +16,7 @@ enum class Unit {
     acceleration,
     stiffness,
     damping,
+    rolling_damping,
     pressure,
     density,
     mass,

@@ -2,6 +2,7 @@
 // that the chosen laws read.
 #include "core/error.hpp"
 #include "scene/schema.hpp"
+#include "scene/space.hpp"
 #include "scene/wall_geometry.hpp"
 
 #include <fmt/format.h>
@@ -9,14 +10,21 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 
 namespace sandlane::scene {
 
 namespace {
 
+bool is_positive(double x) {
+    return x > 0;
+}
+
 struct Validator {
     const Scene& scene;
     const std::string& file;
+    const std::int64_t dimension = scene.domain.dimension;
+    const bool spatial = dimension == 3;
 
     template <class... Args>
     [[noreturn]] void reject(fmt::format_string<Args...> format, Args&&... args) const {
@@ -38,12 +46,40 @@ struct Validator {
         reject("{}.material: \"{}\" is not a material; known: {}", path, name, names());
     }
 
+    // "1, 2" or "1, 2, 3".
+    [[nodiscard]] std::string text(Vec v) const { return components(v, dimension); }
+
+    template <class Condition> [[nodiscard]] bool all_components(Vec v, const Condition& condition) const {
+        return std::ranges::all_of(axes(dimension),
+                                   [&](const AxisOfSpace& axis) { return condition(v.*axis.component); });
+    }
+
     void check_domain() const {
         const Vec size = scene.domain.upper - scene.domain.lower;
-        if (!(size.x > 0 && size.y > 0 && std::isfinite(size.x) && std::isfinite(size.y)))
-            reject("domain: upper = [{}, {}] must lie above lower = [{}, {}] in both directions, at a finite "
-                   "distance",
-                   scene.domain.upper.x, scene.domain.upper.y, scene.domain.lower.x, scene.domain.lower.y);
+        if (!all_components(size, [](double length) { return length > 0 && std::isfinite(length); }))
+            reject("domain: upper = [{}] must lie above lower = [{}] in {} directions, at a finite distance",
+                   text(scene.domain.upper), text(scene.domain.lower), spatial ? "all" : "both");
+    }
+
+    // Choices that mean something in the plane only.
+    void check_method() const {
+        if (!spatial) return;
+        if (scene.md.body == Body::disc)
+            reject("md.body: \"disc\" is no body of a three-dimensional scene; use \"sphere\"");
+        if (scene.md.inertia == Inertia::disc)
+            reject("md.inertia: \"disc\" belongs to two-dimensional scenes; use \"sphere\"");
+        const NeighbourMethod neighbours = scene.md.neighbours;
+        if (neighbours == NeighbourMethod::lattice || neighbours == NeighbourMethod::lattice_half)
+            reject("md.neighbours: \"{}\" is for two-dimensional scenes; use \"auto\", \"verlet\" or "
+                   "\"link-cells\"",
+                   neighbour_choices()[static_cast<std::size_t>(neighbours)]);
+        if (scene.md.tangential == TangentialLaw::walton_braun)
+            reject("md.tangential: \"walton-braun\" is a law of two-dimensional scenes; use "
+                   "\"cundall-strack\" or \"haff-werner\"");
+        if (std::ranges::count(scene.output.trajectory, Trajectory::book) > 0)
+            reject(
+                "output.trajectory: \"book\" is a format of two-dimensional scenes; use \"dump\", \"xyz\" or "
+                "\"vtp\"");
     }
 
     void check_materials() const {
@@ -58,10 +94,18 @@ struct Validator {
         reject("materials[{}]." #key ": {} is out of range; md.normal = \"" name "\" needs more than 0", n,  \
                m.key);
 #include "laws/laws.def"
-            if (scene.md.tangential == TangentialLaw::cundall_strack && !(m.tangential_stiffness > 0))
+            const bool springs = scene.md.tangential == TangentialLaw::cundall_strack ||
+                                 scene.md.tangential == TangentialLaw::walton_braun;
+            if (springs && !(m.tangential_stiffness > 0))
                 reject("materials[{}].tangential_stiffness: {} is out of range; md.tangential = "
-                       "\"cundall-strack\" needs more than 0 N/m",
-                       n, m.tangential_stiffness);
+                       "\"{}\" needs more than 0 N/m",
+                       n, m.tangential_stiffness,
+                       tangential_choices()[static_cast<std::size_t>(scene.md.tangential)]);
+            if (scene.md.normal == NormalLaw::walton_braun && !(m.unloading_stiffness >= m.stiffness))
+                reject("materials[{}].unloading_stiffness: {} is out of range; md.normal = \"walton-braun\" "
+                       "needs {} (stiffness) or more",
+                       n, m.unloading_stiffness, m.stiffness);
+            check_rolling(m, n);
         }
         for (std::size_t n = 0; n < scene.pairs.size(); ++n) {
             material_exists(scene.pairs[n].first, fmt::format("pairs[{}]", n));
@@ -73,21 +117,32 @@ struct Validator {
         }
     }
 
+    void check_rolling(const Material& m, std::size_t n) const {
+        if ((m.rolling_friction > 0) != (m.rolling_damping > 0))
+            reject("materials[{}]: rolling friction needs both rolling_friction ({}) and rolling_damping ({}) "
+                   "above 0",
+                   n, m.rolling_friction, m.rolling_damping);
+        if (m.rolling_friction > 0 && scene.md.tangential == TangentialLaw::none)
+            reject("materials[{}].rolling_friction: {} has no effect with md.tangential = \"none\"; choose "
+                   "\"haff-werner\" or \"cundall-strack\", or leave it out",
+                   n, m.rolling_friction);
+    }
+
     void check_grains(const Grains& g, const std::string& path) const {
         material_exists(g.material, path);
         const bool sized =
             g.kind == GrainKind::lattice || g.kind == GrainKind::random || g.kind == GrainKind::pour;
         if (sized && !(g.sizes.min > 0)) reject("{}.radius: is missing", path);
-        if (g.kind == GrainKind::lattice && (g.spacing.x <= 0 || g.spacing.y <= 0) &&
-            (g.counts[0] > 1 || g.counts[1] > 1))
-            reject("{}.spacing: [{}, {}] must be above 0 in both directions", path, g.spacing.x, g.spacing.y);
+        const bool several = std::ranges::any_of(g.counts, [](std::int64_t n) { return n > 1; });
+        if (g.kind == GrainKind::lattice && several && !all_components(g.spacing, is_positive))
+            reject("{}.spacing: [{}] must be above 0 in {} directions", path, text(g.spacing),
+                   spatial ? "all" : "both");
         if (g.kind == GrainKind::pour && !(g.rate > 0))
             reject("{}.rate: {} must be above 0 grains per second", path, g.rate);
         if (g.kind == GrainKind::file && g.file.empty()) reject("{}.file: is missing", path);
         const bool in_region = g.kind == GrainKind::random || g.kind == GrainKind::pour;
-        if (in_region && (g.upper.x < g.lower.x || g.upper.y < g.lower.y))
-            reject("{}.upper: [{}, {}] must not lie below lower = [{}, {}]", path, g.upper.x, g.upper.y,
-                   g.lower.x, g.lower.y);
+        if (in_region && !all_components(g.upper - g.lower, [](double length) { return length >= 0; }))
+            reject("{}.upper: [{}] must not lie below lower = [{}]", path, text(g.upper), text(g.lower));
     }
 
     void need_points(const Wall& w, const std::string& path, std::size_t least) const {
@@ -117,17 +172,49 @@ struct Validator {
                    path, w.spacing > 0 ? w.spacing : 2 * w.radius, count, most);
     }
 
+    void need_two_points(const Wall& w, const std::string& path, const char* what) const {
+        if (w.points.size() != 2) reject("{}.points: has {} points; {} has 2", path, w.points.size(), what);
+    }
+
+    void check_plane(const Wall& w, const std::string& path) const {
+        need_points(w, path, 1);
+        if (norm(w.normal) == 0)
+            reject("{}.normal: is missing; a plane needs the direction of its free side", path);
+    }
+
+    void check_box(const Wall& w, const std::string& path) const {
+        need_two_points(w, path, "a box");
+        if (!all_components(w.points[1] - w.points[0], [](double length) { return length != 0; }))
+            reject("{}.points: [{}] and [{}] span no volume; give two opposite corners of the box", path,
+                   text(w.points[0]), text(w.points[1]));
+    }
+
+    void check_cone(const Wall& w, const std::string& path) const {
+        need_two_points(w, path, "the axis of a cone");
+        if (!(w.radius > 0 || w.radius_to > 0))
+            reject("{}.radius: {} and radius_to: {} m; one of them must be above 0", path, w.radius,
+                   w.radius_to);
+    }
+
+    // Kinds that the other dimension does not have.
+    void check_kind(const Wall& w, const std::string& path) const {
+        const bool both = w.kind == WallKind::plane, is_spatial = w.kind >= WallKind::box;
+        if (!both && is_spatial != spatial)
+            reject("{}.kind: \"{}\" is for {}-dimensional scenes; allowed here: {}", path,
+                   wall_choices()[static_cast<std::size_t>(w.kind)], is_spatial ? "three" : "two",
+                   spatial ? "\"plane\", \"box\", \"cylinder\", \"cone\", \"mesh\""
+                           : "\"plane\", \"segment\", \"polyline\", \"arc\", \"grains\"");
+    }
+
     void check_wall(const Wall& w, const std::string& path) const {
         material_exists(w.material, path);
+        check_kind(w, path);
         switch (w.kind) {
         case WallKind::plane:
-            need_points(w, path, 1);
-            if (norm(w.normal) == 0)
-                reject("{}.normal: is missing; a plane needs the direction of its free side", path);
+            check_plane(w, path);
             break;
         case WallKind::segment:
-            if (w.points.size() != 2)
-                reject("{}.points: has {} points; a segment has 2", path, w.points.size());
+            need_two_points(w, path, "a segment");
             break;
         case WallKind::polyline:
             need_points(w, path, 2);
@@ -140,18 +227,40 @@ struct Validator {
             if (w.items.empty()) check_wall_grains(w, path);
             break;
         case WallKind::box:
+            check_box(w, path);
+            break;
         case WallKind::cylinder:
+            need_two_points(w, path, "the axis of a cylinder");
+            need_radius(w, path);
+            break;
         case WallKind::cone:
+            check_cone(w, path);
+            break;
         case WallKind::mesh:
+            if (w.file.empty()) reject("{}.file: is missing; a mesh needs an STL file", path);
             break;
         }
         for (std::size_t n = 1; n < w.points.size(); ++n)
             if (w.kind != WallKind::plane && w.points[n] == w.points[n - 1])
                 reject("{}.points: points {} and {} coincide", path, n - 1, n);
+        motion_exists(w, path);
+    }
+
+    void motion_exists(const Wall& w, const std::string& path) const {
         if (w.motion.empty()) return;
         for (const Motion& m : scene.motions)
             if (m.name == w.motion) return;
         reject("{}.motion: \"{}\" is not the name of a [[motions]] table", path, w.motion);
+    }
+
+    void check_motion(std::size_t n) const {
+        const Motion& m = scene.motions[n];
+        for (std::size_t other = 0; other < n; ++other)
+            if (scene.motions[other].name == m.name)
+                reject("motions[{}].name: \"{}\" is used twice", n, m.name);
+        const bool turns = m.kind == MotionKind::rotate || m.kind == MotionKind::planetary;
+        if (turns && norm(m.axis) == 0)
+            reject("motions[{}].axis: [{}] is no direction; give for example [0, 0, 1]", n, text(m.axis));
     }
 
     // The name becomes that of a file.
@@ -169,27 +278,45 @@ struct Validator {
 
     void check_analysis(const AnalysisSpec& a, const std::string& path) const {
         const bool whole = a.from == a.to;
+        if (a.axis == Axis::z && !spatial)
+            reject("{}.axis: \"z\" is for three-dimensional scenes; allowed here: \"x\", \"y\"", path);
         if (a.kind == AnalysisKind::flow) {
-            if (whole)
-                reject("{}.to: is the same as from = [{}, {}]; a line has two ends", path, a.from.x,
-                       a.from.y);
+            check_flow(a, path);
             return;
         }
-        if (!whole && (a.from.x == a.to.x || a.from.y == a.to.y))
-            reject("{}.to: [{}, {}] and from = [{}, {}] span no area", path, a.to.x, a.to.y, a.from.x,
-                   a.from.y);
+        if (!whole && flat_directions(a) > 0)
+            reject("{}.to: [{}] and from = [{}] span no {}", path, text(a.to), text(a.from),
+                   spatial ? "volume" : "area");
         if (a.kind == AnalysisKind::pair_correlation) check_range(a, path, whole);
+    }
+
+    [[nodiscard]] std::int64_t flat_directions(const AnalysisSpec& a) const {
+        return std::ranges::count_if(axes(dimension), [&](const AxisOfSpace& axis) {
+            return a.from.*axis.component == a.to.*axis.component;
+        });
+    }
+
+    void check_flow(const AnalysisSpec& a, const std::string& path) const {
+        if (!spatial && a.from == a.to)
+            reject("{}.to: is the same as from = [{}]; a line has two ends", path, text(a.from));
+        if (spatial && flat_directions(a) != 1)
+            reject(
+                "{}.to: [{}] and from = [{}] are no opposite corners of a rectangle across an axis; exactly "
+                "one coordinate must be the same in both",
+                path, text(a.to), text(a.from));
     }
 
     // Beyond it the number of pairs of an ideal gas is not known in closed form.
     void check_range(const AnalysisSpec& a, const std::string& path, bool whole) const {
         const Vec size = whole ? scene.domain.upper - scene.domain.lower : a.to - a.from;
-        const double x = std::abs(size.x) * (whole && scene.domain.periodic[0] ? 0.5 : 1);
-        const double y = std::abs(size.y) * (whole && scene.domain.periodic[1] ? 0.5 : 1);
-        if (a.range > std::min(x, y))
-            reject("{}.range: {} m is out of range; allowed: up to {} m, the shorter side, half of it if "
+        double most = std::numeric_limits<double>::infinity();
+        for (const auto& [name, component, index] : axes(dimension))
+            most =
+                std::min(most, std::abs(size.*component) * (whole && scene.domain.periodic[index] ? 0.5 : 1));
+        if (a.range > most)
+            reject("{}.range: {} m is out of range; allowed: up to {} m, the shorte{} side, half of it if "
                    "periodic",
-                   path, a.range, std::min(x, y));
+                   path, a.range, most, spatial ? "st" : "r");
     }
 };
 
@@ -198,6 +325,7 @@ struct Validator {
 void validate(const Scene& scene, const std::string& file) {
     const Validator v{scene, file};
     v.check_domain();
+    v.check_method();
     v.check_materials();
     for (std::size_t n = 0; n < scene.grains.size(); ++n)
         v.check_grains(scene.grains[n], fmt::format("grains[{}]", n));
@@ -207,10 +335,7 @@ void validate(const Scene& scene, const std::string& file) {
         v.check_analysis_name(n, fmt::format("analysis[{}]", n));
         v.check_analysis(scene.analyses[n], fmt::format("analysis[{}]", n));
     }
-    for (std::size_t n = 0; n < scene.motions.size(); ++n)
-        for (std::size_t other = 0; other < n; ++other)
-            if (scene.motions[other].name == scene.motions[n].name)
-                v.reject("motions[{}].name: \"{}\" is used twice", n, scene.motions[n].name);
+    for (std::size_t n = 0; n < scene.motions.size(); ++n) v.check_motion(n);
 }
 
 } // namespace sandlane::scene

@@ -1,8 +1,11 @@
 #include "scene/wall_geometry.hpp"
 
+#include "scene/lookup.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 namespace sandlane::scene {
 
@@ -49,12 +52,6 @@ std::vector<GrainItem> row(const Wall& wall) {
         grains.push_back(
             {k == 0 ? from : from + (spacing * k / length) * along, {}, wall.radius, wall.omega});
     return grains;
-}
-
-const Motion* motion_of(const Scene& scene, const Wall& wall) {
-    for (const Motion& m : scene.motions)
-        if (m.name == wall.motion) return &m;
-    return nullptr;
 }
 
 bool stands_as_given(const Motion& m) {
@@ -177,11 +174,22 @@ Gap gap(const WallPiece& piece, Vec p) {
 std::vector<WallPiece> walls_at_start(const Scene& scene) {
     std::vector<WallPiece> pieces;
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
-        const Motion* motion = motion_of(scene, scene.walls[w]);
-        if (motion == nullptr || stands_as_given(*motion))
+        const int motion = motion_index(scene, scene.walls[w].motion);
+        if (motion < 0 || stands_as_given(scene.motions[static_cast<std::size_t>(motion)]))
             add_pieces(pieces, scene.walls[w], static_cast<int>(w));
     }
     return pieces;
+}
+
+Gap gap(const SurfacePiece& piece, Vec p) {
+    if (const auto* plane = std::get_if<PlanePiece>(&piece)) return {distance_from(piece, p), plane->normal};
+    return from_point(p, closest_point(piece, p));
+}
+
+SurfacesAtStart::SurfacesAtStart(const Scene& scene) : surfaces_(scene) {
+    standing_.push_back(Surfaces::frame_of(-1));
+    for (std::size_t m = 0; m < scene.motions.size(); ++m)
+        if (stands_as_given(scene.motions[m])) standing_.push_back(Surfaces::frame_of(static_cast<int>(m)));
 }
 
 } // namespace sandlane::scene

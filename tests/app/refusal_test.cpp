@@ -262,13 +262,13 @@ TEST_F(Refusals, LatticeBounds) {
 }
 
 TEST_F(Refusals, MoreMemoryThanThereIs) {
-    if (allowed_memory() > 400e9) GTEST_SKIP() << "this machine could try";
-    // 104 bytes for each grain, twice.
+    if (allowed_memory() > 500e9) GTEST_SKIP() << "this machine could try";
+    // 128 bytes for each grain, twice.
     const std::string sand = "[[grains]]\nkind = \"random\"\ncount = 1000000000\nradius = 1e-9\n";
     write("scene.toml", replaced(box_scene, "[[walls]]", sand + sand + "[[walls]]"));
     const std::string message = refused_run(Exit::unavailable, {});
     EXPECT_SAYS(message,
-                "the start state of 2e+09 grains needs about 416 GB of memory; this process may use");
+                "the start state of 2e+09 grains needs about 512 GB of memory; this process may use");
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -70,6 +71,26 @@ TEST(Random, NormalNumbersHaveTheMomentsOfTheNormalDistribution) {
     EXPECT_NEAR(m.square / m.count, 1, each * std::sqrt(2.0));
     EXPECT_NEAR(m.fourth / m.count, 3, each * std::sqrt(96.0));
     EXPECT_NEAR(m.cross / (m.count / 2), 0, each * std::sqrt(2.0));
+}
+
+TEST(Random, ThirdNumbersAreIndependentOfTheFirstTwo) {
+    const Random random(7, Stream::position);
+    Moments uniform, normal;
+    for (std::uint64_t n = 0; n < 50000; ++n) {
+        const auto u = random.uniform3(n), x = random.normal3(n);
+        EXPECT_EQ((std::array{u[0], u[1]}), random.uniform2(n));
+        EXPECT_EQ((std::array{x[0], x[1]}), random.normal2(n));
+        for (const int other : {0, 1}) {
+            uniform.add(u[2] - 0.5, u.at(other) - 0.5);
+            normal.add(x[2], x.at(other));
+        }
+    }
+    const int pairs = normal.count / 2;
+    EXPECT_NEAR(uniform.cross / pairs, 0, 5 / std::sqrt(pairs) / 12);
+    EXPECT_NEAR(normal.cross / pairs, 0, 5 / std::sqrt(pairs));
+    EXPECT_NEAR(uniform.square / uniform.count, 1.0 / 12,
+                5 / std::sqrt(pairs) * std::sqrt(1.0 / 80 - 1.0 / 144));
+    EXPECT_NEAR(normal.square / normal.count, 1, 5 / std::sqrt(pairs) * std::sqrt(2.0));
 }
 
 TEST(Random, SeedsStreamsGroupsAndIndicesAreDifferentNumbers) {

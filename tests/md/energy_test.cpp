@@ -111,9 +111,9 @@ TEST(WallLoads, AGrainThatSlidesOnATurningDrum) {
         simulate(s, {grain(0, {0.1, 0.1 - drum + radius - overlap, 0}, {0, 0, 0}, radius, mass)});
     const md::WallLoad load = sim.observe().walls.at(0);
     const double tolerance = 1e-10 * normal;             // the overlap has lost four digits
-    EXPECT_NEAR(load.force_x, -0.5 * normal, tolerance); // the wall's lowest point moves to the right
-    EXPECT_NEAR(load.force_y, -normal, tolerance);
-    EXPECT_NEAR(load.torque, -0.5 * normal * drum, tolerance);
+    EXPECT_NEAR(load.force.x, -0.5 * normal, tolerance); // the wall's lowest point moves to the right
+    EXPECT_NEAR(load.force.y, -normal, tolerance);
+    EXPECT_NEAR(load.torque.z, -0.5 * normal * drum, tolerance);
     EXPECT_NEAR(load.power, 0.5 * normal * drum * 2, tolerance);
 }
 
@@ -138,9 +138,9 @@ TEST(WallLoads, ATurningWallGrain) {
     md::Simulation sim = simulate(s, {grain(0, {0, 0.1 + radius - overlap, 0}, {0, 0, 0}, radius, mass)});
     const md::WallLoad load = sim.observe().walls.at(0);
     const double tolerance = 1e-10 * normal;
-    EXPECT_NEAR(load.force_x, 0.5 * normal, tolerance); // its highest point moves to the left
-    EXPECT_NEAR(load.force_y, -normal, tolerance);
-    EXPECT_NEAR(load.torque, -0.5 * normal * 0.1, tolerance);
+    EXPECT_NEAR(load.force.x, 0.5 * normal, tolerance); // its highest point moves to the left
+    EXPECT_NEAR(load.force.y, -normal, tolerance);
+    EXPECT_NEAR(load.torque.z, -0.5 * normal * 0.1, tolerance);
     EXPECT_NEAR(load.power, 0.5 * normal * 0.1 * 2, tolerance);
 }
 
@@ -163,7 +163,8 @@ TEST(Contacts, AddUpToTheForcesOfTheKernels) {
     const std::vector<double> force = sim.forces(simd::Isa::scalar, scene::NeighbourMethod::brute_force);
     for (std::size_t n = 0; n < snapshot.size(); ++n) {
         const auto id = static_cast<std::size_t>(sim.state().id[n]);
-        EXPECT_NEAR(force[n * simd::force_fields], sum[id].x, 1e-11); // of 1e2 N, added in another order
-        EXPECT_NEAR(force[n * simd::force_fields + 1], sum[id].y, 1e-11);
+        EXPECT_NEAR(force[n * sim.state().force_stride()], sum[id].x,
+                    1e-11); // of 1e2 N, added in another order
+        EXPECT_NEAR(force[n * sim.state().force_stride() + 1], sum[id].y, 1e-11);
     }
 }

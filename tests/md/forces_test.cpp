@@ -48,7 +48,7 @@ TEST_P(ForceSum, MatchesTableOne) {
     for (std::size_t i = 0; i < grains.size(); ++i) {
         place[static_cast<std::size_t>(sim.state().id[i])] = i;
         sum += std::hypot(f[4 * i], f[4 * i + 1]);
-        torque += std::abs(f[4 * i + 2] * sim.state().radius[i]);
+        torque += std::abs(f[4 * i + 2] * sim.state().radius(i));
     }
     EXPECT_NEAR(sum, 2838.446713117929, 1e-9);
     EXPECT_NEAR(torque, 21.239234403941, 1e-10);
@@ -63,7 +63,7 @@ TEST_P(ForceSum, MatchesTableOne) {
         const std::size_t i = place[e.id];
         EXPECT_NEAR(f[4 * i], e.x, 1e-11) << e.id;
         EXPECT_NEAR(f[4 * i + 1], e.y, 1e-11) << e.id;
-        EXPECT_NEAR(f[4 * i + 2] * sim.state().radius[i], e.torque, 1e-11) << e.id;
+        EXPECT_NEAR(f[4 * i + 2] * sim.state().radius(i), e.torque, 1e-11) << e.id;
     }
     for (const std::size_t id : {0U, 27U}) {
         EXPECT_EQ(f[4 * place[id]], 0.0);

@@ -83,7 +83,7 @@ TEST(Resume, MemoryOfContactsGoesAlong) {
         first.run(part);
         md::Simulation next = test::make_simulation(s, falling_grains(), simd::Isa::scalar);
         next.restore(first.serialise());
-        EXPECT_EQ(next.serialise(), first.serialise());
+        EXPECT_TRUE(next.serialise() == first.serialise()); // too long to print
         first = next;
     }
     first.run(1500 - 913);

@@ -1,6 +1,6 @@
-// Periodic box of discs at a given packing fraction, for throughput measurements: a state that every
-// pair-finding method accepts. Up to 0.82 an elastic gas that friction cools slowly; beyond jamming a packing
-// at rest. Radii +-10 % unless equal.
+// Periodic box of discs or spheres at a given packing fraction, for throughput measurements: a state that
+// every pair-finding method accepts. Below jamming an elastic gas that friction cools slowly; beyond it a
+// packing at rest. Radii +-10 % unless equal.
 #pragma once
 
 #include "core/rng.hpp"
@@ -14,6 +14,7 @@ namespace sandlane::bench {
 struct Setup {
     std::size_t grains = 10000;
     double packing_fraction = 0.82;
+    int dimension = 2;
     scene::NormalLaw normal = scene::NormalLaw::linear_dashpot;
     bool friction = true;
     bool equal_radii = false;
@@ -23,28 +24,41 @@ struct Setup {
     bool two_materials = false; // of the same coefficients
 };
 
-// Below the packing fraction of a jammed disc packing there is no damping, above it strong damping brings the
-// start to rest: 0.01 touching neighbours per grain at 0.2, about one at 0.82, between four and five at 0.88.
-inline constexpr double jammed = 0.85;
+// Below the packing fraction of a jammed packing there is no damping, above it strong damping brings the
+// start to rest. Discs: 0.01 touching neighbours per grain at 0.2, about one at 0.82, between four and five
+// at 0.88. Spheres: between five and six at 0.64.
+inline bool at_rest(const Setup& setup) {
+    return setup.packing_fraction > (setup.dimension == 3 ? 0.63 : 0.85);
+}
 
 // Rows and columns of the start: even, as the triangular lattice needs in a periodic box.
 inline std::int64_t side_of(const Setup& setup) {
-    return 2 * std::llround(0.5 * std::sqrt(static_cast<double>(setup.grains)));
+    const auto n = static_cast<double>(setup.grains);
+    return 2 * std::llround(0.5 * (setup.dimension == 3 ? std::cbrt(n) : std::sqrt(n)));
 }
 
 inline scene::Scene agitated_scene(const Setup& setup) {
     scene::Scene s;
     const auto side = static_cast<double>(side_of(setup));
-    const double spacing = std::sqrt(2 * std::numbers::pi / (std::sqrt(3.0) * setup.packing_fraction));
-    s.title = "agitated discs";
-    s.domain.upper = {side * spacing, side * spacing * std::sqrt(3.0) / 2, 0};
-    s.domain.periodic = {true, true};
+    s.title = "agitated grains";
+    if (setup.dimension == 3) {
+        const double edge = side * std::cbrt(4.0 / 3.0 * std::numbers::pi / setup.packing_fraction);
+        s.domain.dimension = 3;
+        s.domain.upper = {edge, edge, edge};
+        s.md.inertia = scene::Inertia::sphere;
+    } else {
+        const double spacing = std::sqrt(2 * std::numbers::pi / (std::sqrt(3.0) * setup.packing_fraction));
+        s.domain.upper = {side * spacing, side * spacing * std::sqrt(3.0) / 2, 0};
+        s.md.body = scene::Body::disc;
+    }
+    s.domain.periodic = {true, true, setup.dimension == 3};
     scene::Material m;
-    m.name = "disc";
+    m.name = "grain";
     m.density = 1 / std::numbers::pi;
     m.stiffness = 1e4;
-    m.damping = setup.packing_fraction > jammed ? 30.0 : 0.0;
+    m.damping = at_rest(setup) ? 30.0 : 0.0;
     m.young = 1e4;
+    m.dissipation = at_rest(setup) ? 5e-3 : 0.0;
     m.friction = setup.friction ? 0.3 : 0.0;
     m.tangential_damping = setup.friction ? 0.1 : 0.0;
     m.tangential_stiffness = 2.0 / 7.0 * m.stiffness;
@@ -59,28 +73,39 @@ inline scene::Scene agitated_scene(const Setup& setup) {
                                        : scene::TangentialLaw::none;
     s.md.neighbours = setup.neighbours;
     s.md.integrator = setup.integrator;
-    s.md.body = scene::Body::disc;
     s.md.max_speed = 2;
     s.md.duration = 1;
     return s;
 }
 
+inline Vec lattice_place(const Setup& setup, const scene::Scene& s, std::int64_t n) {
+    const std::int64_t side = side_of(setup);
+    const double spacing = s.domain.upper.x / static_cast<double>(side);
+    const auto column = static_cast<double>(n % side), row = static_cast<double>(n / side % side);
+    if (setup.dimension == 2)
+        return {(column + 0.25 + 0.5 * static_cast<double>(n / side % 2)) * spacing,
+                (row + 0.5) * spacing * std::sqrt(3.0) / 2, 0};
+    const Random jitter(1, Stream::position);
+    const auto shaken = [&](double cell, std::int64_t direction) {
+        return (cell + 0.5 + 0.25 * (jitter.uniform(static_cast<std::uint64_t>(3 * n + direction)) - 0.5)) *
+               spacing;
+    };
+    return {shaken(column, 0), shaken(row, 1), shaken(static_cast<double>(n / (side * side)), 2)};
+}
+
 inline std::vector<scene::GrainState> agitated_grains(const Setup& setup, const scene::Scene& s) {
     std::vector<scene::GrainState> grains;
     const std::int64_t side = side_of(setup);
-    const double spacing = s.domain.upper.x / static_cast<double>(side);
     const Random radius(1, Stream::radius), velocity(1, Stream::velocity);
-    for (std::int64_t n = 0; n < side * side; ++n) {
-        const auto column = static_cast<double>(n % side), row = static_cast<double>(n / side);
+    for (std::int64_t n = 0; n < side * side * (setup.dimension == 3 ? side : 1); ++n) {
+        const auto counter = static_cast<std::uint64_t>(n);
         scene::GrainState g;
         g.id = n;
-        g.radius = setup.equal_radii ? 1.0 : 0.9 + 0.2 * radius.uniform(static_cast<std::uint64_t>(n));
+        g.radius = setup.equal_radii ? 1.0 : 0.9 + 0.2 * radius.uniform(counter);
         g.mass = g.radius * g.radius;
-        g.position = {(column + 0.25 + 0.5 * static_cast<double>(n / side % 2)) * spacing,
-                      (row + 0.5) * spacing * std::sqrt(3.0) / 2, 0};
-        const auto [vx, vy] = velocity.normal2(static_cast<std::uint64_t>(n));
+        g.position = lattice_place(setup, s, n);
+        const auto [vx, vy] = velocity.normal2(counter);
         g.velocity = {0.5 * vx, 0.5 * vy, 0};
-        g.omega = 0;
         g.material = setup.two_materials ? static_cast<int>(n % 2) : 0;
         grains.push_back(g);
     }
@@ -97,6 +122,11 @@ inline std::vector<scene::GrainState> later_grains(const md::Simulation& simulat
         g.position = {now.x[i], now.y[i], 0};
         g.velocity = {now.vx[i], now.vy[i], 0};
         g.omega = now.omega[i];
+        if (now.dimension == 3) {
+            g.position.z = now.z[i];
+            g.velocity.z = now.vz[i];
+            g.angular_velocity = {now.omega_x[i], now.omega_y[i], now.omega[i]};
+        }
         g.radius = now.radius[i];
         g.mass = now.mass[i];
         g.material = now.material[i];

@@ -1,0 +1,165 @@
+// Forces of walls in 3D on grains, one kernel per law of laws.def, and what becomes of the memory of a
+// contact that passes from one piece of a wall to the next.
+#include "md/records.hpp"
+#include "md/walls.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace sandlane::md {
+
+namespace {
+
+using Entry = SurfaceContacts::Entry;
+
+// Candidates of one grain and what their contacts remember: number f of candidate n at memory[f * stride +
+// n].
+struct Candidates {
+    const NearWall *begin, *end;
+    double* memory;
+    std::ptrdiff_t stride;
+
+    [[nodiscard]] double* of(std::uint32_t element) const {
+        const NearWall* n = std::lower_bound(
+            begin, end, element, [](const NearWall& near, std::uint32_t e) { return near.element < e; });
+        return memory + (n - begin);
+    }
+};
+
+bool remembers(const double* memory) {
+    return *memory < 0.5 * laws::no_contact;
+}
+
+// A contact moves less than this within a step, in units of the grain's radius: what begins farther from one
+// that ended is new.
+constexpr double passage = 0.25;
+
+// The contact on a piece that the grain does not touch any more goes on as the one on a piece of the same
+// wall that begins where it was.
+void pass_on(const Walls& walls, const RecordedGrain& g, const std::vector<Entry>& touching,
+             const Candidates& candidates) {
+    const auto touches = [&](std::uint32_t element) {
+        return std::any_of(touching.begin(), touching.end(),
+                           [&](const Entry& t) { return t.element == element; });
+    };
+    const auto forget = [&](double* memory) {
+        for (int f = 0; f < walls.fields(); ++f) memory[f * candidates.stride] = laws::no_contact;
+    };
+    for (const Entry& t : touching) {
+        double* const own = candidates.of(t.element);
+        if (remembers(own)) continue;
+        const Vec point = g.position + t.contact.distance * t.contact.direction;
+        double nearest = passage * g.radius;
+        double* old = nullptr;
+        for (const NearWall* n = candidates.begin; n != candidates.end; ++n) {
+            double* const other = candidates.memory + (n - candidates.begin);
+            if (!remembers(other) || touches(n->element) ||
+                walls.element(n->element).wall != walls.element(t.element).wall)
+                continue;
+            const double distance = norm(walls.closest_point(n->element, g.position) - point);
+            if (distance >= nearest) continue;
+            nearest = distance;
+            old = other;
+        }
+        if (old == nullptr) continue;
+        for (int f = 0; f < walls.fields(); ++f) own[f * candidates.stride] = old[f * candidates.stride];
+        forget(old);
+    }
+    for (const NearWall* n = candidates.begin; n != candidates.end; ++n)
+        if (!touches(n->element)) forget(candidates.memory + (n - candidates.begin));
+}
+
+Vector<double> vector(Vec v) {
+    return {v.x, v.y, v.z};
+}
+
+// n from the grain to the wall, which is flat and moves as its point at the contact does.
+laws::SpatialState<double> state_of(const RecordedGrain& g, const WallContact& c) {
+    return {vector(c.distance * c.direction),
+            vector(c.velocity - g.velocity),
+            vector(g.radius * g.angular_velocity),
+            vector(g.angular_velocity + c.angular_velocity),
+            g.radius,
+            g.inverse_radius};
+}
+
+void add_to(double* accumulator, const laws::SpatialForce<double>& f, bool spin) {
+    accumulator[0] += f.force.x;
+    accumulator[1] += f.force.y;
+    accumulator[2] += f.force.z;
+    if (!spin) return;
+    accumulator[4] += f.turning.x;
+    accumulator[5] += f.turning.y;
+    accumulator[6] += f.turning.z;
+}
+
+template <class Normal, class Tangential>
+laws::SpatialForce<double> force_of(const RecordedGrain& g, const WallContact& c, const double* coefficients,
+                                    double* remembered, std::ptrdiff_t stride, double dt) {
+    constexpr int memory = laws::memory_of<Normal, Tangential, 3>;
+    double held[memory + 1];
+    for (int m = 0; m < memory; ++m) held[m] = remembered[m * stride];
+    const auto f = laws::pair_force<Normal, Tangential, double>(
+        state_of(g, c), laws::coefficients_from<double>(coefficients), held, dt);
+    for (int m = 0; m < memory; ++m) remembered[m * stride] = held[m];
+    return f;
+}
+
+template <class Normal, class Tangential>
+WallResult surface_forces(const Walls& walls, const WallInput& input, const NearWall* begin,
+                          const NearWall* end) {
+    constexpr bool has_memory = (laws::memory_of<Normal, Tangential, 3>) != 0;
+    WallResult result;
+    SurfaceContacts contacts;
+    for (const NearWall *first = begin, *last = begin; first != end; first = last) {
+        const std::size_t i = first->grain;
+        while (last != end && last->grain == i) ++last;
+        const double* spin = input.spins != nullptr ? input.spins + i * simd::spin_fields : nullptr;
+        const RecordedGrain g =
+            recorded_grain<3>(input.records + i * simd::record_fields, spin, input.inverse_dt);
+        walls.find_contacts(g.position, g.radius, first, last, contacts);
+        Candidates candidates{first, last, nullptr, input.stride};
+        if constexpr (has_memory) {
+            candidates.memory = input.memory + (first - input.near);
+            pass_on(walls, g, contacts.entries, candidates);
+        }
+        for (const auto& [e, c] : contacts.entries) {
+            const WallElement& element = walls.element(e);
+            const double* k = input.coefficients + (input.material[i] * input.materials + element.material) *
+                                                       laws::pair_coefficients;
+            const auto f = force_of<Normal, Tangential>(g, c, k, has_memory ? candidates.of(e) : nullptr,
+                                                        input.stride, input.dt);
+            add_to(input.force + (i - input.first) * static_cast<std::size_t>(input.force_stride), f,
+                   input.spins != nullptr);
+            result.power += f.force.x * c.velocity.x + f.force.y * c.velocity.y + f.force.z * c.velocity.z;
+            if (const double ratio = f.overlap / g.radius; ratio > result.largest_ratio) {
+                result.largest_ratio = ratio;
+                result.grain = static_cast<std::int64_t>(i);
+                result.wall = element.wall;
+            }
+        }
+    }
+    return result;
+}
+
+template <class Normal> WallKernel with_tangential(int tangential) {
+    int position = 0;
+    WallKernel kernel = nullptr;
+#define TANGENTIAL(type, choice, name)                                                                       \
+    if (position++ == tangential) kernel = surface_forces<Normal, laws::type>;
+#include "laws/laws.def"
+    return kernel;
+}
+
+} // namespace
+
+WallKernel surface_kernel(int normal, int tangential) {
+    int position = 0;
+    WallKernel kernel = nullptr;
+#define NORMAL(type, choice, name, key)                                                                      \
+    if (position++ == normal) kernel = with_tangential<laws::type>(tangential);
+#include "laws/laws.def"
+    return kernel;
+}
+
+} // namespace sandlane::md
