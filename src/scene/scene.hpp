@@ -23,9 +23,12 @@ enum class TangentialLaw {
 };
 enum class Integrator { gear4, gear5, gear6, velocity_verlet };
 enum class NeighbourMethod { automatic, brute_force, link_cells, lattice, lattice_half, verlet };
-enum class Inertia { disc, sphere };  // J = m R^2/2 or 2/5 m R^2 (docs/physics.md 1)
-enum class Body { sphere, disc };     // mass of a grain: 4/3 pi R^3 rho, or pi R^2 rho (per metre of depth)
-enum class LeverArm { undeformed, plane }; // R, or the distance to the plane of the contact (docs/physics.md 2)
+enum class Inertia { disc, sphere }; // J = m R^2/2 or 2/5 m R^2 (docs/physics.md 1)
+enum class Body { sphere, disc };    // mass of a grain: 4/3 pi R^3 rho, or pi R^2 rho (per metre of depth)
+enum class LeverArm {
+    undeformed,
+    plane
+};                                    // R, or the distance to the plane of the contact (docs/physics.md 2)
 enum class Outside { error, remove }; // what happens to a grain that leaves an open side of the domain
 enum class GrainKind { lattice, random, pour, list, file };
 enum class SizeLaw { constant, uniform, inverse_square, lognormal };
@@ -200,8 +203,7 @@ struct Output {
     std::vector<Trajectory> trajectory{Trajectory::dump};
     Colour colour = Colour::speed;
     std::int64_t picture_width = 800; // pixels
-    // 3D pictures: azimuth about the upward direction and elevation of the viewer, degrees
-    std::array<double, 2> view{25, 20};
+    Vec view;                         // 3D: direction to the viewer of pictures; 0: chosen by gravity
     bool movie = true;
     bool report = true;
 };

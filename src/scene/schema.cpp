@@ -254,6 +254,11 @@ const Table<Output>& output_table() {
             .choice("colour", &Output::colour, colour_choices(), "colour of the grains")
             .integer("picture_width", &Output::picture_width, between(64, 16384),
                      "width of pictures in pixels")
+            .vector(
+                "view", &Output::view, Unit::none,
+                "pictures: direction to the viewer, for example [0, -1, 0] from the front, [0, 0, 1] from "
+                "above; [0, 0, 0]: from the front, turned a little and raised, with up against gravity")
+            .only(3)
             .flag("movie", &Output::movie, "movie.mp4, if ffmpeg is installed")
             .flag("report", &Output::report, "report.html: plots and a replay");
     return table;
