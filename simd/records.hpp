@@ -33,13 +33,13 @@ template <int dimension>
     return record[Record<2>::spin] * record[Record<2>::inverse_radius];
 }
 
-// How grains turn: not at all, by friction at their surface, or by couples besides (rolling friction, lever arms
-// other than the radius).
+// How grains turn: not at all, by friction at their surface, or by couples besides (rolling friction, lever
+// arms other than the radius).
 enum class Rotation { none, friction, couples };
 inline constexpr int rotations = 3;
 
-// Force accumulator of a particle. 2D: Fx, Fy, sum of f_t, sum of couples; torque = R sum f_t + couples. 3D: Fx,
-// Fy, Fz, unused; with rotation the sum of n x f_t, unused; with couples their sum, unused.
+// Force accumulator of a particle. 2D: Fx, Fy, sum of f_t, sum of couples; torque = R sum f_t + couples. 3D:
+// Fx, Fy, Fz, unused; with rotation the sum of n x f_t, unused; with couples their sum, unused.
 [[nodiscard]] constexpr int force_stride(int dimension, Rotation rotation) {
     return dimension == 3 ? 4 + 4 * static_cast<int>(rotation) : 4;
 }

@@ -62,13 +62,15 @@ template <class Arch, int fields> struct Rows {
             for (int f = 0; f < fields; ++f) rows[fields * l + f] = lanes[f][l];
     }
     // The same for rows at[0], at[1], ... of `base`.
-    static SANDLANE_INLINE void gather(const double* base, const std::int32_t* at, Block<Arch> (&field)[fields]) {
+    static SANDLANE_INLINE void gather(const double* base, const std::int32_t* at,
+                                       Block<Arch> (&field)[fields]) {
         alignas(64) double rows[fields * width];
         for (int l = 0; l < width; ++l)
             for (int f = 0; f < fields; ++f) rows[fields * l + f] = base[std::ptrdiff_t{at[l]} * fields + f];
         load(rows, field);
     }
-    static SANDLANE_INLINE void scatter(const Block<Arch> (&field)[fields], double* base, const std::int32_t* at) {
+    static SANDLANE_INLINE void scatter(const Block<Arch> (&field)[fields], double* base,
+                                        const std::int32_t* at) {
         alignas(64) double rows[fields * width];
         store(field, rows);
         for (int l = 0; l < width; ++l)
@@ -91,7 +93,8 @@ template <int fields> struct RowsOfFours {
         for (int part = 0; part < 2; ++part)
             for (int f = 0; f < fields; f += 4) {
                 __m256d a = _mm256_loadu_pd(row(4 * part) + f), b = _mm256_loadu_pd(row(4 * part + 1) + f);
-                __m256d c = _mm256_loadu_pd(row(4 * part + 2) + f), d = _mm256_loadu_pd(row(4 * part + 3) + f);
+                __m256d c = _mm256_loadu_pd(row(4 * part + 2) + f),
+                        d = _mm256_loadu_pd(row(4 * part + 3) + f);
                 transpose4(a, b, c, d);
                 field[f].p[part] = a;
                 field[f + 1].p[part] = b;
@@ -99,7 +102,8 @@ template <int fields> struct RowsOfFours {
                 field[f + 3].p[part] = d;
             }
     }
-    template <class Row> static SANDLANE_INLINE void store_rows(const Lanes (&field)[fields], const Row& row) {
+    template <class Row>
+    static SANDLANE_INLINE void store_rows(const Lanes (&field)[fields], const Row& row) {
         for (int part = 0; part < 2; ++part)
             for (int f = 0; f < fields; f += 4) {
                 __m256d a = field[f].p[part], b = field[f + 1].p[part];
@@ -286,13 +290,15 @@ template <class Arch, int dimension> struct Turns {
     static constexpr int components = dimension == 3 ? 3 : 1;
     Block<Arch> turn[components], differ[components], first, second;
 
-    SANDLANE_INLINE Turns(const double* records, const double* spins, const std::int32_t* i, const std::int32_t* j) {
+    SANDLANE_INLINE Turns(const double* records, const double* spins, const std::int32_t* i,
+                          const std::int32_t* j) {
         double sum[components][width], difference[components][width], radius[2][width];
         for (int l = 0; l < width; ++l) {
             const double* a = records + std::ptrdiff_t{i[l]} * record_fields;
             const double* b = records + std::ptrdiff_t{j[l]} * record_fields;
             for (int c = 0; c < components; ++c) {
-                const double wa = turn_of<dimension>(a, spins, i[l], c), wb = turn_of<dimension>(b, spins, j[l], c);
+                const double wa = turn_of<dimension>(a, spins, i[l], c),
+                             wb = turn_of<dimension>(b, spins, j[l], c);
                 sum[c][l] = wb + wa;
                 difference[c][l] = wa - wb;
             }

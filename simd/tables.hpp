@@ -147,8 +147,8 @@ using BinKernel = void (*)(const BinView&, std::int64_t begin, std::int64_t end)
 
 // Kernels of the plane or of space.
 struct DimensionKernels {
-    // [couples][many materials]; null for laws that remember, which need lists, and for laws that the dimension
-    // does not have
+    // [couples][many materials]; null for laws that remember, which need lists, and for laws that the
+    // dimension does not have
     struct Law {
         PairKernel pair[2][2];
         TileKernel tile[2][2];

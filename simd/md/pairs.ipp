@@ -42,8 +42,14 @@ gather_coefficients(const PairView& view, const std::int32_t* i, const std::int3
         const double* entry = view.coefficients + pair * laws::pair_coefficients;
         for (int c = 0; c < own; ++c) lanes[c][l] = entry[c];
     }
-    return {load<Arch>(lanes[0]), load<Arch>(lanes[1]), load<Arch>(lanes[2]), load<Arch>(lanes[3]),
-            load<Arch>(lanes[4]), load<Arch>(lanes[5]), load<Arch>(lanes[6]), load<Arch>(lanes[7]),
+    return {load<Arch>(lanes[0]),
+            load<Arch>(lanes[1]),
+            load<Arch>(lanes[2]),
+            load<Arch>(lanes[3]),
+            load<Arch>(lanes[4]),
+            load<Arch>(lanes[5]),
+            load<Arch>(lanes[6]),
+            load<Arch>(lanes[7]),
             R(view.coefficients[laws::pair_coefficients - 2]),
             R(view.coefficients[laws::pair_coefficients - 1])};
 }

@@ -20,7 +20,8 @@ template <int force_fields> struct Contacts {
 };
 
 // Whether the laws read field f of combined records.
-template <int dimension, class Normal, class Tangential, bool couples> [[nodiscard]] constexpr bool reads(int f) {
+template <int dimension, class Normal, class Tangential, bool couples>
+[[nodiscard]] constexpr bool reads(int f) {
     using Fields = Record<dimension>;
     if (dimension == 2 && f == Fields::spin) return Tangential::needs_spin;
     if (f == Fields::inverse_radius) return Normal::needs_radius || couples;
@@ -36,7 +37,8 @@ SANDLANE_INLINE void begin_contacts(const TileList& list, std::int32_t pair, uns
     touched = static_cast<std::uint8_t>(touching);
 }
 
-template <int dimension, bool spin> SANDLANE_INLINE void prefetch_grain(const PairView& view, std::int32_t j) {
+template <int dimension, bool spin>
+SANDLANE_INLINE void prefetch_grain(const PairView& view, std::int32_t j) {
     __builtin_prefetch(view.records + std::ptrdiff_t{j} * record_fields);
     if (dimension == 3 && spin) __builtin_prefetch(view.spins + std::ptrdiff_t{j} * spin_fields);
 }
@@ -61,7 +63,8 @@ SANDLANE_INLINE void pack_contacts(const PairView& view, const TileList& list, s
         if (size - n < width) touching &= (1u << (size - n)) - 1u;
         const int at = c.count;
         for (int f = 0; f < record_fields; ++f)
-            if (reads<dimension, Normal, Tangential, couples>(f)) compress(field[f], touching, c.field[f] + at);
+            if (reads<dimension, Normal, Tangential, couples>(f))
+                compress(field[f], touching, c.field[f] + at);
         if constexpr (memory > 0) {
             const std::int32_t here[width] = {n, n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7};
             Integers<Arch, width>(here).compress(touching, c.place + at);
@@ -88,7 +91,8 @@ SANDLANE_INLINE void pad_contacts(Packed& c) {
 
 // Memory of eight contacts, in rows at `place`, as blocks and back. Rows of one or two numbers go by scalars.
 template <class Arch, int memory>
-SANDLANE_INLINE void load_memory(const double* rows, const std::int32_t* place, Block<Arch> (&held)[memory + 1]) {
+SANDLANE_INLINE void load_memory(const double* rows, const std::int32_t* place,
+                                 Block<Arch> (&held)[memory + 1]) {
     constexpr int doubles = memory_row(memory);
     if constexpr (doubles >= 4) {
         Block<Arch> row[doubles];
@@ -102,7 +106,8 @@ SANDLANE_INLINE void load_memory(const double* rows, const std::int32_t* place, 
     }
 }
 template <class Arch, int memory>
-SANDLANE_INLINE void store_memory(const Block<Arch> (&held)[memory + 1], double* rows, const std::int32_t* place) {
+SANDLANE_INLINE void store_memory(const Block<Arch> (&held)[memory + 1], double* rows,
+                                  const std::int32_t* place) {
     constexpr int doubles = memory_row(memory);
     if constexpr (doubles >= 4) {
         Block<Arch> row[doubles];
@@ -140,11 +145,12 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
             if constexpr (many_materials) coefficients = gather_coefficients<Arch>(view, c.i + n, c.j + n);
             R field[record_fields], held[memory + 1];
             for (int f = 0; f < record_fields; ++f)
-                field[f] = reads<dimension, Normal, Tangential, couples>(f) ? load<Arch>(c.field[f] + n) : R(1.0);
+                field[f] =
+                    reads<dimension, Normal, Tangential, couples>(f) ? load<Arch>(c.field[f] + n) : R(1.0);
             load_memory<Arch, memory>(remembered, c.place + n, held);
             const auto f = laws::pair_force<Normal, Tangential, couples>(
-                contact_state<Arch, dimension, Tangential, couples>(view, c.i + n, c.j + n, field), coefficients, held,
-                elapsed);
+                contact_state<Arch, dimension, Tangential, couples>(view, c.i + n, c.j + n, field),
+                coefficients, held, elapsed);
             store_memory<Arch, memory>(held, remembered, c.place + n);
             most = max(f.overlap, most);
             store_force<Arch, fields>(f, c.rows + n * fields);

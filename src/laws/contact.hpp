@@ -14,12 +14,12 @@ namespace sandlane::laws {
 template <class R> struct PairCoefficients {
     R elastic, dissipative;         // normal law
     R tangential_damping, friction; // gamma_t [kg/s], mu
-    R tangential_stiffness;         // k_t [N/m]
-    R cohesion;                     // Pa
-    R rolling_friction;             // mu_r
-    R rolling_damping;              // gamma_r [N m s]
-    R least;                        // N, see NormalInput
-    R lever;                        // 0: lever arms R_i; 1: distances to the plane of the contact (1.8)
+    R tangential_stiffness{};       // k_t [N/m]
+    R cohesion{};                   // Pa
+    R rolling_friction{};           // mu_r
+    R rolling_damping{};            // gamma_r [N m s]
+    R least{};                      // N, see NormalInput
+    R lever{};                      // 0: lever arms R_i; 1: distances to the plane of the contact (1.8)
 };
 inline constexpr int pair_coefficients = 10; // doubles of one entry of a material pair table
 inline constexpr int scene_coefficients = 2; // the last of them, equal for all pairs
@@ -27,8 +27,8 @@ template <class R> SANDLANE_INLINE PairCoefficients<R> coefficients_from(const d
     return {R(e[0]), R(e[1]), R(e[2]), R(e[3]), R(e[4]), R(e[5]), R(e[6]), R(e[7]), R(e[8]), R(e[9])};
 }
 
-// Numbers that a contact of these laws remembers: the tangential law's, then the normal law's. The first number
-// of a contact that begins is `no_contact`.
+// Numbers that a contact of these laws remembers: the tangential law's, then the normal law's. The first
+// number of a contact that begins is `no_contact`.
 template <class Tangential, int dimension>
 inline constexpr int tangential_memory = dimension == 3 ? Tangential::memory_in_space : Tangential::memory;
 template <class Normal, class Tangential, int dimension>
@@ -49,9 +49,7 @@ template <int memory, class R> SANDLANE_INLINE R begin_contact(R* held, const R&
 }
 
 // Lever arms l_i, l_j of a contact at distance d (1.8).
-template <class R> struct Levers {
-    R first, second;
-};
+template <class R> struct Levers { R first, second; };
 template <class R>
 SANDLANE_INLINE Levers<R> levers(const R& distance, const R& radius, const R& radius_sum,
                                  const R& square_difference, const R& plane) {
@@ -64,15 +62,15 @@ SANDLANE_INLINE Levers<R> levers(const R& distance, const R& radius, const R& ra
 // members behind the reduced radius are read where couples are asked for, and `spin` is not.
 template <class R> struct PairState {
     R dx, dy, dvx, dvy;
-    R spin;           // R_i omega_i + R_j omega_j
-    R radius_sum;     // R_i + R_j
-    R inverse_radii;  // 1/R_i + 1/R_j
-    R turn{}, differ{}; // omega_i + omega_j, omega_i - omega_j
+    R spin;                          // R_i omega_i + R_j omega_j
+    R radius_sum;                    // R_i + R_j
+    R inverse_radii;                 // 1/R_i + 1/R_j
+    R turn{}, differ{};              // omega_i + omega_j, omega_i - omega_j
     R radius{}, square_difference{}; // R_i, R_i^2 - R_j^2; walls, which are flat here: d^2
 };
 
-// Force on i; j gets the opposite force and the same tangential force (equal torque signs, 1.7). The torque on i
-// is R_i tangential + couple, that on j R_j tangential - couple.
+// Force on i; j gets the opposite force and the same tangential force (equal torque signs, 1.7). The torque
+// on i is R_i tangential + couple, that on j R_j tangential - couple.
 template <class R> struct PairForce {
     R x, y, tangential;
     R overlap; // xi, negative without contact
@@ -124,14 +122,15 @@ SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoeffic
         share = (arm.first + arm.second) / s.radius_sum;
     }
     const R v_t = Tangential::needs_spin ? s.dvx * ny - s.dvy * nx + spin : zero;
-    const R f_t = Tangential::force(TangentialInput<R>{f_n.load, v_t, c.tangential_damping, c.friction,
-                                                       c.tangential_stiffness, time},
-                                    memory);
+    const R f_t = Tangential::force(
+        TangentialInput<R>{f_n.load, v_t, c.tangential_damping, c.friction, c.tangential_stiffness, time},
+        memory);
     PairForce<R> f{select(touching, -(f_n.force * nx) - f_t * ny, zero),
                    select(touching, f_t * nx - f_n.force * ny, zero), select(touching, f_t, zero), overlap};
     if constexpr (couples) {
         const R limit = c.rolling_friction * inverse.radii * f_n.load;
-        const R couple = (arm.first - s.radius * share) * f_t + rolling_couple(s.differ, c.rolling_damping, limit);
+        const R couple =
+            (arm.first - s.radius * share) * f_t + rolling_couple(s.differ, c.rolling_damping, limit);
         f.tangential = share * f.tangential;
         f.couple = select(touching, couple, zero);
     }
@@ -204,7 +203,8 @@ using ContactState = std::conditional_t<dimension == 3, SpatialState<R>, PairSta
 template <class Normal, class Tangential, int dimension>
 double elastic_energy(double overlap, double inverse_radii, const PairCoefficients<double>& c,
                       const double* memory) {
-    const NormalInput<double> input{overlap, 0, c.elastic, c.dissipative, 1 / inverse_radii, c.cohesion, c.least};
+    const NormalInput<double> input{overlap,           0,          c.elastic, c.dissipative,
+                                    1 / inverse_radii, c.cohesion, c.least};
     const double normal = Normal::energy(input, memory + tangential_memory<Tangential, dimension>);
     if constexpr (dimension == 3) return normal + Tangential::energy_in_space(c.tangential_stiffness, memory);
     return normal + Tangential::energy(c.tangential_stiffness, memory);

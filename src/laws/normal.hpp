@@ -1,14 +1,14 @@
 // Normal contact forces (docs/physics.md 3). Formulas only, templates on R = double or a block of lanes.
-// overlap xi [m], rate d xi/dt [m/s] > 0 while approaching. `memory` numbers per contact live as long as it does;
-// they are zero when it begins, and the same seen from both partners.
+// overlap xi [m], rate d xi/dt [m/s] > 0 while approaching. `memory` numbers per contact live as long as it
+// does; they are zero when it begins, and the same seen from both partners.
 #pragma once
 
 #include "core/real.hpp"
 
 namespace sandlane::laws {
 
-// Two coefficients of a law for one pair of materials, and R_eff = R_i R_j/(R_i + R_j) [m]. `least` is the force
-// that the sum of elastic and dissipative part is cut at: 0 (2.16), or minus infinity.
+// Two coefficients of a law for one pair of materials, and R_eff = R_i R_j/(R_i + R_j) [m]. `least` is the
+// force that the sum of elastic and dissipative part is cut at: 0 (2.16), or minus infinity.
 template <class R> struct NormalInput {
     R overlap, rate;
     R elastic, dissipative;
@@ -18,9 +18,7 @@ template <class R> struct NormalInput {
 };
 
 // force: on the line of centres, repulsive if positive [N]; load: what friction is in proportion to, >= 0.
-template <class R> struct NormalForce {
-    R force, load;
-};
+template <class R> struct NormalForce { R force, load; };
 
 template <class R> SANDLANE_INLINE NormalForce<R> cut(const R& force, const R& least) {
     return {max(force, least), max(force, R(0.0))};
@@ -55,8 +53,9 @@ struct Viscoelastic {
     }
 };
 
-// Loading along Y_l xi, unloading and reloading along Y_u (xi - xi_0), xi_0 = xi_m (1 - Y_l/Y_u), with the largest
-// overlap xi_m of the contact so far (2.15). elastic = Y_l, dissipative = Y_u >= Y_l [N/m]. memory: xi_m [m].
+// Loading along Y_l xi, unloading and reloading along Y_u (xi - xi_0), xi_0 = xi_m (1 - Y_l/Y_u), with the
+// largest overlap xi_m of the contact so far (2.15). elastic = Y_l, dissipative = Y_u >= Y_l [N/m]. memory:
+// xi_m [m].
 struct WaltonBraun {
     static constexpr bool needs_radius = false, cohesive = false;
     static constexpr int memory = 1;
@@ -74,8 +73,8 @@ struct WaltonBraun {
 };
 
 // A viscoelastic contact that is drawn together by a force in proportion to its area 2 pi xi 2 R_eff, the
-// simplified law of Johnson, Kendall and Roberts that LIGGGHTS names SJKR2. The pull goes with the contact, so
-// that there is no neck beyond it. Friction feels the push alone.
+// simplified law of Johnson, Kendall and Roberts that LIGGGHTS names SJKR2. The pull goes with the contact,
+// so that there is no neck beyond it. Friction feels the push alone.
 struct CohesiveViscoelastic {
     static constexpr bool needs_radius = true, cohesive = true;
     static constexpr int memory = 0;

@@ -7,8 +7,8 @@
 
 namespace sandlane::laws {
 
-// Load f_n >= 0 [N] that presses the surfaces together, rate v_t of the surfaces along t [m/s], coefficients of the pair of
-// materials, time since the last evaluation [s].
+// Load f_n >= 0 [N] that presses the surfaces together, rate v_t of the surfaces along t [m/s], coefficients
+// of the pair of materials, time since the last evaluation [s].
 template <class R> struct TangentialInput {
     R normal_force, rate;
     R damping, friction, stiffness; // gamma_t [kg/s], mu, k_t [N/m]
@@ -116,8 +116,8 @@ private:
 };
 
 // A tangential stiffness that falls from k_0 to zero at Coulomb's limit and starts anew at every reversal
-// (2.22)-(2.23), with the exponent 1/3. stiffness = k_0 [N/m]. memory: F, F* [N], sign of the last displacement,
-// load at the last evaluation [N]. In the plane only.
+// (2.22)-(2.23), with the exponent 1/3. stiffness = k_0 [N/m]. memory: F, F* [N], sign of the last
+// displacement, load at the last evaluation [N]. In the plane only.
 struct WaltonBraunTangential {
     static constexpr bool needs_spin = true, needs_twist = false, in_space = false;
     static constexpr int memory = 4, memory_in_space = 0;

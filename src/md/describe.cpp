@@ -37,8 +37,7 @@ bool on_lattice(const Plan& plan) {
 double memory_bytes(const Needs& needs, const Plan& plan) {
     const int dofs = simd::degrees_of_freedom(plan.dimension, turns(plan));
     const bool lists = plan.neighbours == scene::NeighbourMethod::verlet;
-    const double records =
-        simd::record_fields + (plan.dimension == 3 && turns(plan) ? simd::spin_fields : 0);
+    const double records = simd::record_fields + (plan.dimension == 3 && turns(plan) ? simd::spin_fields : 0);
     const double doubles = (plan.order - 2) * dofs + (lists ? 2 * records : records) + 2 +
                            (lists ? 0 : simd::force_stride(plan.dimension, plan.rotation));
     const double state = 8.0 * doubles + 12;

@@ -61,10 +61,10 @@ template <> struct LawTraits<laws::LinearDashpot> {
     // Contact of reduced mass m [kg] and reduced radius [m] at normal impact speed g [m/s].
     static ContactScale scale(const Coefficients& c, double mass, double radius, double speed) {
         const double frequency = std::sqrt(c.elastic / mass);
-        const double ratio = c.dissipative / (2 * std::sqrt(c.elastic * mass)), time = std::numbers::pi / frequency;
-        const double restitution = c.least == 0
-                                       ? laws::linear_dashpot_restitution(ratio)
-                                       : collide<laws::LinearDashpot>(c, mass, radius, speed, time);
+        const double ratio = c.dissipative / (2 * std::sqrt(c.elastic * mass)),
+                     time = std::numbers::pi / frequency;
+        const double restitution = c.least == 0 ? laws::linear_dashpot_restitution(ratio)
+                                                : collide<laws::LinearDashpot>(c, mass, radius, speed, time);
         return {frequency, ratio, time, restitution, speed / frequency};
     }
 };
@@ -115,8 +115,7 @@ template <> struct LawTraits<laws::WaltonBraun> {
 template <> struct LawTraits<laws::CohesiveViscoelastic> : LawTraits<laws::Viscoelastic> {
     static ContactScale scale(const Coefficients& c, double mass, double radius, double speed) {
         ContactScale scale = LawTraits<laws::Viscoelastic>::scale(c, mass, radius, speed);
-        scale.restitution =
-            collide<laws::CohesiveViscoelastic>(c, mass, radius, speed, scale.collision_time);
+        scale.restitution = collide<laws::CohesiveViscoelastic>(c, mass, radius, speed, scale.collision_time);
         return scale;
     }
 };

@@ -1,6 +1,7 @@
 #include "md/observables.hpp"
 
 #include "laws/contact.hpp"
+#include "md/law_choice.hpp"
 #include "md/near_pairs.hpp"
 
 #include <algorithm>
@@ -38,9 +39,9 @@ ContactForce contact_force(const Relative& s, const Coefficients& c, const doubl
     if constexpr (dimension == 3) {
         f = evaluate(laws::pair_force<Normal, Tangential, couples>(s, c, memory, 0.0));
     } else {
-        const laws::PairState<double> plane{s.d.x,        s.d.y,           s.dv.x,     s.dv.y,     s.spin.z,
-                                            s.radius_sum, s.inverse_radii, s.turn.z,   s.differ.z, s.radius,
-                                            s.square_difference};
+        const laws::PairState<double> plane{
+            s.d.x,           s.d.y,    s.dv.x,     s.dv.y,   s.spin.z,           s.radius_sum,
+            s.inverse_radii, s.turn.z, s.differ.z, s.radius, s.square_difference};
         f = evaluate(laws::pair_force<Normal, Tangential, couples>(plane, c, memory, 0.0));
     }
     f.energy = laws::elastic_energy<Normal, Tangential, dimension>(f.overlap, s.inverse_radii, c, memory);
@@ -49,34 +50,14 @@ ContactForce contact_force(const Relative& s, const Coefficients& c, const doubl
 
 using ContactKernel = ContactForce (*)(const Relative&, const Coefficients&, const double*);
 
-template <class Normal, class Tangential, int dimension> ContactKernel with_couples(const Plan& plan) {
-    if constexpr (!laws::exists_in<Tangential, dimension>) {
-        return nullptr;
-    } else {
-        if constexpr (Tangential::needs_spin)
-            if (has_couples(plan)) return contact_force<Normal, Tangential, dimension, true>;
-        return contact_force<Normal, Tangential, dimension, false>;
-    }
-}
-
-template <class Normal> ContactKernel with_tangential(const Plan& plan) {
-    int position = 0;
-    ContactKernel kernel = nullptr;
-#define TANGENTIAL(type, choice, name)                                                                       \
-    if (position++ == plan.tangential)                                                                       \
-        kernel = plan.dimension == 3 ? with_couples<Normal, laws::type, 3>(plan)                             \
-                                     : with_couples<Normal, laws::type, 2>(plan);
-#include "laws/laws.def"
-    return kernel;
-}
-
 ContactKernel contact_kernel(const Plan& plan) {
-    int position = 0;
-    ContactKernel kernel = nullptr;
-#define NORMAL(type, choice, name, key)                                                                      \
-    if (position++ == plan.normal) kernel = with_tangential<laws::type>(plan);
-#include "laws/laws.def"
-    return kernel;
+    return with_laws(plan.normal, plan.tangential, has_couples(plan),
+                     [&]<class Normal, class Tangential, bool couples>(
+                         Type<Normal>, Type<Tangential>, std::bool_constant<couples>) -> ContactKernel {
+                         if constexpr (laws::exists_in<Tangential, 3>)
+                             if (plan.dimension == 3) return contact_force<Normal, Tangential, 3, couples>;
+                         return contact_force<Normal, Tangential, 2, couples>;
+                     });
 }
 
 // What one contact is to its listeners. second: storage index of the other grain; a wall has none.
@@ -131,9 +112,16 @@ private:
     [[nodiscard]] Found with_wall(std::size_t i, std::size_t e, const WallContact& c) const {
         const WallElement& element = walls_.element(e);
         const Vec n = c.direction, wall_spin{0, 0, c.spin};
-        const Relative s{vector(c.distance * n),      vector(c.velocity - rate_ * state_.shift(i)),
-                         vector(spin(i) + wall_spin), vector(rate_ * state_.turn(i) + c.angular_velocity),
-                         state_.radius(i) + c.radius, state_.inverse_radius(i) + c.inverse_radius};
+        const Vec omega = rate_ * state_.turn(i);
+        const Relative s{vector(c.distance * n),
+                         vector(c.velocity - rate_ * state_.shift(i)),
+                         vector(spin(i) + wall_spin),
+                         vector(omega + c.angular_velocity),
+                         state_.radius(i) + c.radius,
+                         state_.inverse_radius(i) + c.inverse_radius,
+                         vector(omega - c.angular_velocity),
+                         state_.radius(i),
+                         flat_or_round(c, state_.radius(i))};
         const ContactForce f = kernel_(s, coefficients_of(state_.material[i], element.material),
                                        memories_.walls.find_wall(state_.id[i], static_cast<std::int64_t>(e)));
         return {i,

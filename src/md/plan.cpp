@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "laws/contact.hpp"
+#include "md/law_choice.hpp"
 #include "md/law_traits.hpp"
 #include "scene/schema.hpp"
 
@@ -57,14 +58,9 @@ double stable_damping(int order) {
 }
 
 // Calls body(traits) with the traits of the scene's normal law.
-template <class Body> auto with_normal_law(const Scene& scene, const Body& body) {
-    switch (scene.md.normal) {
-#define NORMAL(type, choice, name, key)                                                                      \
-    case scene::NormalLaw::choice:                                                                           \
-        return body(LawTraits<laws::type>{});
-#include "laws/laws.def"
-    }
-    return body(LawTraits<laws::Viscoelastic>{});
+template <class Body> auto with_traits(const Scene& scene, const Body& body) {
+    return with_normal_law(static_cast<int>(scene.md.normal),
+                           [&]<class Law>(Type<Law>) { return body(LawTraits<Law>{}); });
 }
 
 // Area or volume of a grain and of the domain.
@@ -77,30 +73,15 @@ double content(const Scene& scene) {
     return size.x * size.y * (scene.domain.dimension == 3 ? size.z : 1.0);
 }
 
-// Calls body<Normal, Tangential>() with the laws at these positions of laws.def.
-template <class Normal, class Body> auto with_tangential_law(int tangential, const Body& body) {
-    int position = 0;
-#define TANGENTIAL(type, choice, name)                                                                       \
-    if (position++ == tangential) return body(std::type_identity<Normal>{}, std::type_identity<laws::type>{});
-#include "laws/laws.def"
-    return body(std::type_identity<Normal>{}, std::type_identity<laws::Frictionless>{});
-}
-template <class Body> auto with_laws(const Plan& plan, const Body& body) {
-    int position = 0;
-#define NORMAL(type, choice, name, key)                                                                      \
-    if (position++ == plan.normal) return with_tangential_law<laws::type>(plan.tangential, body);
-#include "laws/laws.def"
-    return with_tangential_law<laws::LinearDashpot>(plan.tangential, body);
-}
-
 // What contacts of the plan's laws remember.
 void set_memory(Plan& plan) {
-    with_laws(plan, [&]<class Normal, class Tangential>(std::type_identity<Normal>,
-                                                        std::type_identity<Tangential>) {
-        const bool space = plan.dimension == 3;
-        plan.odd_memory = space ? laws::tangential_memory<Tangential, 3> : 0;
-        plan.memory = space ? laws::memory_of<Normal, Tangential, 3> : laws::memory_of<Normal, Tangential, 2>;
-    });
+    with_laws(plan.normal, plan.tangential, false,
+              [&]<class Normal, class Tangential>(Type<Normal>, Type<Tangential>, auto) {
+                  const bool space = plan.dimension == 3;
+                  plan.odd_memory = space ? laws::tangential_memory<Tangential, 3> : 0;
+                  plan.memory =
+                      space ? laws::memory_of<Normal, Tangential, 3> : laws::memory_of<Normal, Tangential, 2>;
+              });
 }
 
 } // namespace
@@ -112,7 +93,7 @@ double lattice_ratio_bound(int reach, double delta) {
 std::vector<double> pair_table(const Scene& scene) {
     const std::size_t n = scene.materials.size();
     std::vector<double> table(n * n * laws::pair_coefficients);
-    with_normal_law(scene, [&](auto traits) {
+    with_traits(scene, [&](auto traits) {
         for (std::size_t a = 0; a < n; ++a)
             for (std::size_t b = 0; b < n; ++b) {
                 const scene::Material &p = scene.materials[a], &q = scene.materials[b];
@@ -128,9 +109,15 @@ std::vector<double> pair_table(const Scene& scene) {
                     std::min(p.rolling_damping, q.rolling_damping),
                     scene.md.cut ? 0.0 : -std::numeric_limits<double>::infinity(),
                     scene.md.lever_arm == scene::LeverArm::plane ? 1.0 : 0.0};
-                const double values[] = {mixed.elastic,          mixed.dissipative,      mixed.tangential_damping,
-                                         mixed.friction,         mixed.tangential_stiffness, mixed.cohesion,
-                                         mixed.rolling_friction, mixed.rolling_damping,  mixed.least,
+                const double values[] = {mixed.elastic,
+                                         mixed.dissipative,
+                                         mixed.tangential_damping,
+                                         mixed.friction,
+                                         mixed.tangential_stiffness,
+                                         mixed.cohesion,
+                                         mixed.rolling_friction,
+                                         mixed.rolling_damping,
+                                         mixed.least,
                                          mixed.lever};
                 static_assert(std::size(values) == laws::pair_coefficients);
                 std::copy_n(values, laws::pair_coefficients, c);
@@ -202,8 +189,8 @@ Derived derive(const Scene& scene, const Needs& needs) {
     const double light = 0.5 * needs.mass_min, heavy = needs.mass_max;
     const double inertia = scene.md.inertia == scene::Inertia::disc ? 0.5 : 0.4;
     const auto scale = [&](const Coefficients& c, double mass, double radius) {
-        return with_normal_law(scene,
-                               [&](auto traits) { return traits.scale(c, mass, radius, scene.md.max_speed); });
+        return with_traits(scene,
+                           [&](auto traits) { return traits.scale(c, mass, radius, scene.md.max_speed); });
     };
     const auto bound = [&](double critical, double recommended) {
         d.critical_dt = std::min(d.critical_dt, critical);
@@ -219,7 +206,8 @@ Derived derive(const Scene& scene, const Needs& needs) {
         d.restitution_max = std::max({d.restitution_max, fast.restitution, deep.restitution});
         d.overlap_ratio = std::max(d.overlap_ratio, deep.overlap / needs.radius_min);
         if (c.rolling_friction > 0 && c.rolling_damping > 0) { // of two of the lightest grains
-            const double inertia_of_two = 0.5 * inertia * needs.mass_min * needs.radius_min * needs.radius_min;
+            const double inertia_of_two =
+                0.5 * inertia * needs.mass_min * needs.radius_min * needs.radius_min;
             bound(stable_damping(order) * inertia_of_two / c.rolling_damping,
                   0.15 * inertia_of_two / c.rolling_damping);
         }
@@ -230,7 +218,8 @@ Derived derive(const Scene& scene, const Needs& needs) {
                   0.15 * tangential_mass / c.tangential_damping);
         if (needs.memory) { // the spring swings at its own frequency
             const double frequency = std::sqrt(c.tangential_stiffness / tangential_mass);
-            const double ratio = c.tangential_damping / (2 * std::sqrt(c.tangential_stiffness * tangential_mass));
+            const double ratio =
+                c.tangential_damping / (2 * std::sqrt(c.tangential_stiffness * tangential_mass));
             bound(stable_phase(order, ratio) / frequency, std::numbers::pi / frequency / 50);
         }
     }
@@ -371,9 +360,11 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     plan.rotation = needs.couples ? simd::Rotation::couples
                     : turns       ? simd::Rotation::friction
                                   : simd::Rotation::none;
-    // Spins without friction: the law of fewest operations whose kernels have room for torques, which are zero.
+    // Spins without friction: the law of fewest operations whose kernels have room for torques, which are
+    // zero.
     const bool idle = needs.couples || (plan.dimension == 3 && turns);
-    const scene::TangentialLaw without = idle ? scene::TangentialLaw::haff_werner : scene::TangentialLaw::none;
+    const scene::TangentialLaw without =
+        idle ? scene::TangentialLaw::haff_werner : scene::TangentialLaw::none;
     plan.tangential = static_cast<int>(needs.friction ? scene.md.tangential : without);
     set_memory(plan);
     plan.many_materials = needs.many_materials;

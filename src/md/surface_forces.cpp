@@ -1,5 +1,6 @@
 // Forces of walls in 3D on grains, one kernel per law of laws.def, and what becomes of the memory of a
 // contact that passes from one piece of a wall to the next.
+#include "md/law_choice.hpp"
 #include "md/records.hpp"
 #include "md/walls.hpp"
 
@@ -80,32 +81,35 @@ laws::SpatialState<double> state_of(const RecordedGrain& g, const WallContact& c
             vector(g.radius * g.angular_velocity),
             vector(g.angular_velocity + c.angular_velocity),
             g.radius,
-            g.inverse_radius};
+            g.inverse_radius,
+            vector(g.angular_velocity - c.angular_velocity),
+            g.radius,
+            flat_or_round(c, g.radius)};
 }
 
-void add_to(double* accumulator, const laws::SpatialForce<double>& f, bool spin) {
-    accumulator[0] += f.force.x;
-    accumulator[1] += f.force.y;
-    accumulator[2] += f.force.z;
-    if (!spin) return;
-    accumulator[4] += f.turning.x;
-    accumulator[5] += f.turning.y;
-    accumulator[6] += f.turning.z;
+// As many of the vectors as the accumulator has room for.
+void add_to(double* accumulator, const laws::SpatialForce<double>& f, int fields) {
+    const Vector<double> parts[] = {f.force, f.turning, f.couple};
+    for (int p = 0; p < fields / 4; ++p) {
+        accumulator[4 * p] += parts[p].x;
+        accumulator[4 * p + 1] += parts[p].y;
+        accumulator[4 * p + 2] += parts[p].z;
+    }
 }
 
-template <class Normal, class Tangential>
+template <class Normal, class Tangential, bool couples>
 laws::SpatialForce<double> force_of(const RecordedGrain& g, const WallContact& c, const double* coefficients,
                                     double* remembered, std::ptrdiff_t stride, double dt) {
     constexpr int memory = laws::memory_of<Normal, Tangential, 3>;
     double held[memory + 1];
     for (int m = 0; m < memory; ++m) held[m] = remembered[m * stride];
-    const auto f = laws::pair_force<Normal, Tangential, double>(
+    const auto f = laws::pair_force<Normal, Tangential, couples>(
         state_of(g, c), laws::coefficients_from<double>(coefficients), held, dt);
     for (int m = 0; m < memory; ++m) remembered[m * stride] = held[m];
     return f;
 }
 
-template <class Normal, class Tangential>
+template <class Normal, class Tangential, bool couples>
 WallResult surface_forces(const Walls& walls, const WallInput& input, const NearWall* begin,
                           const NearWall* end) {
     constexpr bool has_memory = (laws::memory_of<Normal, Tangential, 3>) != 0;
@@ -127,11 +131,14 @@ WallResult surface_forces(const Walls& walls, const WallInput& input, const Near
             const WallElement& element = walls.element(e);
             const double* k = input.coefficients + (input.material[i] * input.materials + element.material) *
                                                        laws::pair_coefficients;
-            const auto f = force_of<Normal, Tangential>(g, c, k, has_memory ? candidates.of(e) : nullptr,
-                                                        input.stride, input.dt);
+            const auto f = force_of<Normal, Tangential, couples>(
+                g, c, k, has_memory ? candidates.of(e) : nullptr, input.stride, input.dt);
             add_to(input.force + (i - input.first) * static_cast<std::size_t>(input.force_stride), f,
-                   input.spins != nullptr);
+                   input.force_stride);
             result.power += f.force.x * c.velocity.x + f.force.y * c.velocity.y + f.force.z * c.velocity.z;
+            if constexpr (couples)
+                result.power += f.couple.x * c.angular_velocity.x + f.couple.y * c.angular_velocity.y +
+                                f.couple.z * c.angular_velocity.z;
             if (const double ratio = f.overlap / g.radius; ratio > result.largest_ratio) {
                 result.largest_ratio = ratio;
                 result.grain = static_cast<std::int64_t>(i);
@@ -142,24 +149,17 @@ WallResult surface_forces(const Walls& walls, const WallInput& input, const Near
     return result;
 }
 
-template <class Normal> WallKernel with_tangential(int tangential) {
-    int position = 0;
-    WallKernel kernel = nullptr;
-#define TANGENTIAL(type, choice, name)                                                                       \
-    if (position++ == tangential) kernel = surface_forces<Normal, laws::type>;
-#include "laws/laws.def"
-    return kernel;
-}
-
 } // namespace
 
-WallKernel surface_kernel(int normal, int tangential) {
-    int position = 0;
-    WallKernel kernel = nullptr;
-#define NORMAL(type, choice, name, key)                                                                      \
-    if (position++ == normal) kernel = with_tangential<laws::type>(tangential);
-#include "laws/laws.def"
-    return kernel;
+WallKernel surface_kernel(const Plan& plan) {
+    return with_laws(plan.normal, plan.tangential, has_couples(plan),
+                     []<class Normal, class Tangential, bool couples>(
+                         Type<Normal>, Type<Tangential>, std::bool_constant<couples>) -> WallKernel {
+                         if constexpr (laws::exists_in<Tangential, 3>)
+                             return surface_forces<Normal, Tangential, couples>;
+                         else
+                             return nullptr;
+                     });
 }
 
 } // namespace sandlane::md

@@ -1,4 +1,5 @@
 // Forces of walls on grains: candidate list, its upkeep, and the kernels, one per law of laws.def.
+#include "md/law_choice.hpp"
 #include "md/records.hpp"
 #include "md/walls.hpp"
 
@@ -10,7 +11,25 @@ namespace sandlane::md {
 
 namespace {
 
-template <class Normal, class Tangential>
+// A disc is a grain; everything else is flat and moves as its point at the contact does.
+laws::PairState<double> state_of(const RecordedGrain& g, const WallContact& c) {
+    laws::PairState<double> s{};
+    s.dx = c.distance * c.direction.x;
+    s.dy = c.distance * c.direction.y;
+    s.dvx = c.velocity.x - g.velocity.x;
+    s.dvy = c.velocity.y - g.velocity.y;
+    s.spin = g.surface_speed + c.spin;
+    s.radius_sum = g.radius + c.radius;
+    s.inverse_radii = g.inverse_radius + c.inverse_radius;
+    const double omega = g.surface_speed * g.inverse_radius;
+    s.turn = omega + c.angular_velocity.z;
+    s.differ = omega - c.angular_velocity.z;
+    s.radius = g.radius;
+    s.square_difference = flat_or_round(c, g.radius);
+    return s;
+}
+
+template <class Normal, class Tangential, bool couples>
 WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWall* begin,
                        const NearWall* end) {
     WallResult result;
@@ -29,20 +48,19 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
         const WallElement& element = walls.elements()[n->element];
         const double* k = input.coefficients +
                           (input.material[i] * input.materials + element.material) * laws::pair_coefficients;
-        const laws::PairState<double> pair{c.distance * c.direction.x,         c.distance * c.direction.y,
-                                           c.velocity.x - g.velocity.x,        c.velocity.y - g.velocity.y,
-                                           g.surface_speed + c.spin,           reach,
-                                           g.inverse_radius + c.inverse_radius};
+        const laws::PairState<double> pair = state_of(g, c);
         double held[memory + 1];
         for (int m = 0; m < memory; ++m) held[m] = remembered[m * input.stride];
-        const auto f = laws::pair_force<Normal, Tangential>(pair, laws::coefficients_from<double>(k),
-                                                                    held, input.dt);
+        const auto f = laws::pair_force<Normal, Tangential, couples>(pair, laws::coefficients_from<double>(k),
+                                                                     held, input.dt);
         for (int m = 0; m < memory; ++m) remembered[m * input.stride] = held[m];
         double* force = input.force + (i - input.first) * 4;
         force[0] += f.x;
         force[1] += f.y;
         force[2] += f.tangential;
+        force[3] += f.couple;
         result.power += f.x * c.velocity.x + f.y * c.velocity.y - f.tangential * c.spin;
+        if constexpr (couples) result.power += f.couple * c.angular_velocity.z;
         const double ratio = f.overlap / g.radius;
         if (ratio <= result.largest_ratio) continue;
         result.largest_ratio = ratio;
@@ -52,24 +70,14 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
     return result;
 }
 
-template <class Normal> WallKernel with_tangential(int tangential) {
-    int position = 0;
-    WallKernel kernel = nullptr;
-#define TANGENTIAL(type, choice, name)                                                                       \
-    if (position++ == tangential) kernel = wall_forces<Normal, laws::type>;
-#include "laws/laws.def"
-    return kernel;
-}
-
 } // namespace
 
-WallKernel wall_kernel(int normal, int tangential) {
-    int position = 0;
-    WallKernel kernel = nullptr;
-#define NORMAL(type, choice, name, key)                                                                      \
-    if (position++ == normal) kernel = with_tangential<laws::type>(tangential);
-#include "laws/laws.def"
-    return kernel;
+WallKernel wall_kernel(const Plan& plan) {
+    return with_laws(plan.normal, plan.tangential, has_couples(plan),
+                     []<class Normal, class Tangential, bool couples>(
+                         Type<Normal>, Type<Tangential>, std::bool_constant<couples>) -> WallKernel {
+                         return wall_forces<Normal, Tangential, couples>;
+                     });
 }
 
 namespace {

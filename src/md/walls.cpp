@@ -73,8 +73,7 @@ WallContact disc_contact(const WallElement& e, Vec p) {
 
 Walls::Walls(const scene::Scene& scene, const Plan& plan, const Needs& needs)
     : motions_(scene.motions), rigid_(scene.motions.size()),
-      kernel_(scene.domain.dimension == 3 ? surface_kernel(plan.normal, plan.tangential)
-                                          : wall_kernel(plan.normal, plan.tangential)),
+      kernel_(scene.domain.dimension == 3 ? surface_kernel(plan) : wall_kernel(plan)),
       remembered_(plan.memory), fields_(plan.memory), lower_(plan.lower), upper_(plan.upper),
       skin_(0.5 * needs.radius_min), radius_max_(needs.radius_max), threads_(plan.threads) {
     remembered_.index();
@@ -205,6 +204,7 @@ WallContact Walls::contact(std::size_t element, Vec p) const {
             rigid.velocity_at(e.kind == WallElement::Kind::disc ? e.a : p + c.distance * c.direction);
         omega += rigid.omega;
     }
+    c.angular_velocity = {0, 0, omega};
     if (e.kind == WallElement::Kind::disc) c.spin = e.radius * omega;
     return c;
 }

@@ -39,10 +39,15 @@ struct WallContact {
     double distance = 0;  // from the grain's centre to the surface (disc: to its centre)
     Vec direction;        // unit vector from the grain to the element
     Vec velocity;         // of the wall at the contact (disc: of its centre)
-    Vec angular_velocity; // of the wall: 3D
+    Vec angular_velocity; // of the wall
     double radius = 0, spin = 0, inverse_radius = 0; // disc: R_j, R_j omega_j, 1/R_j
     bool valid = false;
 };
+
+// R_i^2 - R_j^2 of a contact's lever arms; flat walls count as so large that the lever arm is the distance.
+[[nodiscard]] inline double flat_or_round(const WallContact& c, double radius) {
+    return c.radius > 0 ? radius * radius - c.radius * c.radius : c.distance * c.distance;
+}
 
 struct WallResult {
     double largest_ratio = 0; // overlap over the grain's radius
@@ -82,12 +87,12 @@ struct WallInput {
     std::ptrdiff_t stride = 0;
     double dt = 0, inverse_dt = 0;
     const double* spins = nullptr; // 3D: records of spins, null without
-    int force_stride = simd::force_stride(2, false);
+    int force_stride = simd::force_stride(2, simd::Rotation::none);
 };
 // Adds the forces of a range of candidates; compiled per law (wall_forces.cpp, surface_forces.cpp).
 using WallKernel = WallResult (*)(const Walls&, const WallInput&, const NearWall* begin, const NearWall* end);
-[[nodiscard]] WallKernel wall_kernel(int normal, int tangential);
-[[nodiscard]] WallKernel surface_kernel(int normal, int tangential); // 3D
+[[nodiscard]] WallKernel wall_kernel(const Plan& plan);
+[[nodiscard]] WallKernel surface_kernel(const Plan& plan); // 3D
 
 class Walls {
 public:

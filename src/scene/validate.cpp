@@ -119,9 +119,10 @@ struct Validator {
 
     void check_rolling(const Material& m, std::size_t n) const {
         if ((m.rolling_friction > 0) != (m.rolling_damping > 0))
-            reject("materials[{}]: rolling friction needs both rolling_friction ({}) and rolling_damping ({}) "
-                   "above 0",
-                   n, m.rolling_friction, m.rolling_damping);
+            reject(
+                "materials[{}]: rolling friction needs both rolling_friction ({}) and rolling_damping ({}) "
+                "above 0",
+                n, m.rolling_friction, m.rolling_damping);
         if (m.rolling_friction > 0 && scene.md.tangential == TangentialLaw::none)
             reject("materials[{}].rolling_friction: {} has no effect with md.tangential = \"none\"; choose "
                    "\"haff-werner\" or \"cundall-strack\", or leave it out",

@@ -71,18 +71,15 @@ TEST(PairForce, RigidRotationAndGearsDoNotSlide) {
     const laws::PairCoefficients<double> c{100, 0, 1, 10, 0};
     const laws::PairState<double> rigid{
         d, 0, 0, w * d, w * (ri + rj) - w * (ri + rj - d), ri + rj, 1 / ri + 1 / rj};
-    EXPECT_NEAR((laws::pair_force<laws::LinearDashpot, laws::HaffWerner>(rigid, c).tangential), 0,
-                1e-14);
+    EXPECT_NEAR((laws::pair_force<laws::LinearDashpot, laws::HaffWerner>(rigid, c).tangential), 0, 1e-14);
     const laws::PairState<double> gears{d, 0, 0, 0, ri * w - rj * (w * ri / rj), ri + rj, 1 / ri + 1 / rj};
-    EXPECT_NEAR((laws::pair_force<laws::LinearDashpot, laws::HaffWerner>(gears, c).tangential), 0,
-                1e-14);
+    EXPECT_NEAR((laws::pair_force<laws::LinearDashpot, laws::HaffWerner>(gears, c).tangential), 0, 1e-14);
 }
 
 // Single pair of values computed independently; F^t there has the opposite sign.
 TEST(PairForce, SinglePairOfTableOne) {
     const laws::PairState<double> s{1.2, -1.5, -0.3, 0.2, 0.1, 1.95, 1 / 1.0 + 1 / 0.95};
-    const auto f =
-        laws::pair_force<laws::LinearDashpot, laws::HaffWerner>(s, {1000, 0.5, 0.3, 0.4, 0});
+    const auto f = laws::pair_force<laws::LinearDashpot, laws::HaffWerner>(s, {1000, 0.5, 0.3, 0.4, 0});
     EXPECT_NEAR(f.x, -18.3116956246788, 1e-11);
     EXPECT_NEAR(f.y, 22.7890960990678, 1e-11);
     EXPECT_NEAR(f.tangential, -0.0627964899966073, 1e-14);

@@ -177,7 +177,7 @@ private:
         in.dt = dt;
         in.inverse_dt = 1 / dt;
         in.spins = spins_.data();
-        in.force_stride = simd::force_stride(3, true);
+        in.force_stride = simd::force_stride(3, simd::Rotation::friction);
         return in;
     }
 

@@ -12,10 +12,12 @@ laws::ContactState<dimension, double> contact_state(const PairView& view, std::i
     const double* a = view.records + std::ptrdiff_t{i} * record_fields;
     const double* b = view.records + std::ptrdiff_t{j} * record_fields;
     const auto sum = [&](int c) {
-        return (turn_of<dimension>(b, view.spins, j, c) + turn_of<dimension>(a, view.spins, i, c)) * view.inverse_dt;
+        return (turn_of<dimension>(b, view.spins, j, c) + turn_of<dimension>(a, view.spins, i, c)) *
+               view.inverse_dt;
     };
     const auto difference = [&](int c) {
-        return (turn_of<dimension>(a, view.spins, i, c) - turn_of<dimension>(b, view.spins, j, c)) * view.inverse_dt;
+        return (turn_of<dimension>(a, view.spins, i, c) - turn_of<dimension>(b, view.spins, j, c)) *
+               view.inverse_dt;
     };
     const double ri = a[Record<dimension>::radius], rj = b[Record<dimension>::radius];
     laws::ContactState<dimension, double> s{};
@@ -72,8 +74,7 @@ template <int dimension, int fields, class Force> void add(const Force& f, doubl
         second[n] = is_mirrored(dimension, n) ? second[n] - row[n] : second[n] + row[n];
 }
 
-template <class Tangential, bool couples>
-constexpr Rotation rotation_of() {
+template <class Tangential, bool couples> constexpr Rotation rotation_of() {
     if (couples) return Rotation::couples;
     return Tangential::needs_spin ? Rotation::friction : Rotation::none;
 }
@@ -92,10 +93,12 @@ double pair_forces(const PairView& view, const std::int32_t* first, const std::i
     for (std::int32_t n = 0; n < count; ++n) {
         const std::int32_t i = first[n], j = second[n];
         const auto f = laws::pair_force<Normal, Tangential, couples>(
-            contact_state<dimension, Tangential, couples>(view, i, j), coefficients<many_materials>(view, i, j));
+            contact_state<dimension, Tangential, couples>(view, i, j),
+            coefficients<many_materials>(view, i, j));
         if (f.overlap > largest) largest = f.overlap;
         const auto of = [&](std::int32_t grain) { return view.force + std::ptrdiff_t{grain} * fields; };
-        add<dimension, fields>(f, target != Target::second ? of(i) : nullptr, target != Target::first ? of(j) : nullptr);
+        add<dimension, fields>(f, target != Target::second ? of(i) : nullptr,
+                               target != Target::first ? of(j) : nullptr);
     }
     return largest;
 }
@@ -125,8 +128,8 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
         }
         if (!touches) continue;
         const auto f = laws::pair_force<Normal, Tangential, couples>(
-            contact_state<dimension, Tangential, couples>(view, i, j), coefficients<many_materials>(view, i, j),
-            held, view.dt);
+            contact_state<dimension, Tangential, couples>(view, i, j),
+            coefficients<many_materials>(view, i, j), held, view.dt);
         if (f.overlap > largest) largest = f.overlap;
         add<dimension, fields>(f, of(i), j >= list.begin && j < list.end ? of(j) : nullptr);
     }
