@@ -89,10 +89,9 @@ void DepthCanvas::triangle(const std::array<Vec, 3>& corners, Rgb colour, float 
     }
 }
 
-void DepthCanvas::line(Vec from, Vec to, double width, Rgb colour, float opacity) {
+void DepthCanvas::line(Vec from, Vec to, double width, Rgb colour) {
     canvas_.for_stroke(from.x, from.y, to.x, to.y, width, [&](int x, int y, double t, float cover) {
-        if (cover > 0 && from.z + t * (to.z - from.z) >= nearest(x, y))
-            canvas_.blend(x, y, colour, opacity * cover);
+        if (cover > 0 && from.z + t * (to.z - from.z) >= nearest(x, y)) canvas_.blend(x, y, colour, cover);
     });
 }
 

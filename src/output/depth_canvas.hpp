@@ -20,7 +20,7 @@ public:
     // Translucent: `before` is the opacity over a sphere, `opacity` that over the ground.
     void triangle(const std::array<Vec, 3>& corners, Rgb colour, float opacity, float before);
     // Hidden where a sphere is nearer.
-    void line(Vec from, Vec to, double width, Rgb colour, float opacity);
+    void line(Vec from, Vec to, double width, Rgb colour);
 
 private:
     static constexpr float nothing = -std::numeric_limits<float>::infinity();

@@ -13,6 +13,7 @@ using analysis::WallShape;
 namespace {
 
 constexpr Rgb ground{0.965F, 0.969F, 0.976F}, frame{0.80F, 0.82F, 0.85F};
+constexpr Rgb wall_ink{0.19F, 0.22F, 0.28F};
 constexpr double tallest = 1.5; // height of the domain's image in units of the picture's width, at most
 
 Rgb darker(Rgb c) {

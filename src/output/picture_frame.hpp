@@ -9,7 +9,7 @@
 namespace sandlane::output {
 
 inline constexpr Rgb paper{1, 1, 1}, ink{0.15F, 0.18F, 0.23F};
-inline constexpr Rgb wall_ink{0.19F, 0.22F, 0.28F}, wall_grey{0.62F, 0.65F, 0.69F};
+inline constexpr Rgb wall_grey{0.62F, 0.65F, 0.69F};
 
 // Where a rectangle of the plane lies in the picture. World y points up, pixel y down.
 struct View {

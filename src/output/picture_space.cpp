@@ -14,8 +14,8 @@ using analysis::WallShape;
 
 namespace {
 
-constexpr Rgb box_grey{0.72F, 0.75F, 0.79F};
-constexpr float wall_opacity = 0.28F, wall_opacity_before = 0.07F, edge_opacity = 0.55F;
+constexpr Rgb box_grey{0.72F, 0.75F, 0.79F}, edge_grey{0.42F, 0.45F, 0.50F};
+constexpr float wall_opacity = 0.28F, wall_opacity_before = 0.07F;
 
 class SpacePicture {
 public:
@@ -46,7 +46,7 @@ public:
         };
         for (int n = 0; n < 8; ++n)
             for (const int axis : {1, 2, 4})
-                if ((n & axis) == 0) depth_.line(corner(n), corner(n | axis), view_.unit, box_grey, 1);
+                if ((n & axis) == 0) depth_.line(corner(n), corner(n | axis), view_.unit, box_grey);
     }
 
     void draw_walls(const std::vector<WallShape>& walls) {
@@ -67,7 +67,7 @@ public:
             depth_.triangle(face.corners, face.colour, wall_opacity, wall_opacity_before);
         for (const WallEdge& edge : wall_edges(walls))
             if (edge.is_sharp() || edge.is_outline(camera_.towards))
-                depth_.line(place(edge.a), place(edge.b), 1.2 * view_.unit, wall_ink, edge_opacity);
+                depth_.line(place(edge.a), place(edge.b), 1.2 * view_.unit, edge_grey);
     }
 
 private:
