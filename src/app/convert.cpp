@@ -154,6 +154,14 @@ std::string book_text(const ConvertOptions& options) {
     return options.snapshot ? scene::write_book_frame(book) : scene::write_book(book);
 }
 
+output::Camera camera_of(scene::Scene scene, const RenderOptions& options) {
+    if (scene.domain.dimension != 3)
+        fail(Exit::invalid_input, "render: {}: --view goes with three-dimensional scenes only",
+             options.from.string());
+    scene.output.view = {options.view[0], options.view[1], options.view[2]};
+    return output::camera_of(scene);
+}
+
 } // namespace
 
 int convert(const ConvertOptions& options) {
@@ -181,6 +189,7 @@ int render(const RenderOptions& options) {
     const scene::Choices& colours = scene::colour_choices();
     const auto colour = std::find(colours.begin(), colours.end(), options.colour);
     output::PictureStyle style = output::picture_style(simulation.scene());
+    if (!options.view.empty()) style.camera = camera_of(simulation.scene(), options);
     if (options.width > 0) style.width = options.width;
     if (colour != colours.end()) style.colour = static_cast<scene::Colour>(colour - colours.begin());
     output::write_picture(options.png, simulation.snapshot(), style);
