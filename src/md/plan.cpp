@@ -315,6 +315,7 @@ void note_skipped(const Scene& scene, const Needs& needs, Plan& plan) {
     };
     skip(!turns(plan),
          "rotation: no angle, spin or torque columns and kernels (no friction couples to spin)");
+    skip(plan.dimension == 3 && turns(plan) && !plan.orientation, "orientations: nothing asks for them");
     skip(!plan.many_radii, "radii: one radius, the distance stage compares with a constant");
     skip(!plan.many_materials, "materials: one material, no gather of coefficients");
     skip(!plan.walls, "walls: none");
@@ -366,6 +367,7 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     const scene::TangentialLaw without =
         idle ? scene::TangentialLaw::haff_werner : scene::TangentialLaw::none;
     plan.tangential = static_cast<int>(needs.friction ? scene.md.tangential : without);
+    plan.orientation = scene.md.orientation && turns;
     set_memory(plan);
     plan.many_materials = needs.many_materials;
     plan.many_radii = needs.many_radii;

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "md/orientation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,8 @@ void Simulation::prepare_method() {
     lattice_ = Lattice();
     cells_ = LinkCells();
     lists_ = PairLists();
-    state_.double_records = plan_.neighbours == NeighbourMethod::verlet;
+    state_.double_records = plan_.neighbours == NeighbourMethod::verlet || plan_.orientation;
+    state_.keeps_forces = plan_.neighbours != NeighbourMethod::verlet;
     state_.resize_buffers();
     if (is_lattice(plan_.neighbours)) {
         lattice_ = Lattice(scene_, plan_, needs_.radius_max);
@@ -75,7 +77,10 @@ void Simulation::run(std::int64_t steps) {
     const std::int64_t end = step_ + steps;
     while (step_ < end) {
         insert_due();
-        if (step_ % sort_interval == 0 || !sorted_) sort_by_place();
+        if (step_ % sort_interval == 0 || !sorted_) {
+            empty_sinks();
+            sort_by_place();
+        }
         const std::int64_t stop = next_stop(end);
         integrate(false, true);
         while (step_ < stop) {
@@ -107,7 +112,11 @@ std::int64_t Simulation::next_stop(std::int64_t end) const {
 
 void Simulation::integrate(bool correct, bool predict) {
     const simd::MotionKernel kernel = motion_kernel(correct, predict);
-    const simd::MotionView whole = motion_view();
+    simd::MotionView whole = motion_view();
+    if (state_.double_records) {
+        whole.new_records = state_.next_record.data();
+        whole.new_spins = state_.next_spin.data();
+    }
     const std::size_t n = state_.size();
     const bool on_lattice = predict && is_lattice(plan_.neighbours);
     motion_results_.assign(state_.tiles(), {});
@@ -120,7 +129,14 @@ void Simulation::integrate(bool correct, bool predict) {
         if (on_lattice && motion_results_[tile].outside == 0)
             lattice_.leave(state_, kernels_->plane.bin, begin, end);
     });
+    if (state_.double_records) use_new_records(predict);
     if (predict) check_motion();
+}
+
+void Simulation::use_new_records(bool predicted) {
+    state_.record.swap(state_.next_record);
+    state_.spin.swap(state_.next_spin);
+    if (predicted && plan_.orientation) turn_grains(state_, state_.next_spin, plan_.threads);
 }
 
 simd::MotionKernel Simulation::motion_kernel(bool correct, bool predict) const {
@@ -152,8 +168,7 @@ void Simulation::forces_and_motion(bool predict) {
     check_walls();
     add_wall_work();
     ++force_step_;
-    state_.record.swap(state_.next_record);
-    state_.spin.swap(state_.next_spin);
+    use_new_records(predict);
     if (predict) check_motion();
 }
 

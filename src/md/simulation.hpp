@@ -71,10 +71,14 @@ private:
     void start(const std::vector<scene::GrainState>& grains);
     void sort_by_place();
     void insert_due();
-    [[nodiscard]] bool has_room(const scene::GrainState& grain) const;
+    class Room;
+    void empty_sinks();
+    void take_out(std::size_t grain);
+    void keep(const std::vector<std::uint32_t>& kept);
 
     void integrate(bool correct, bool predict);
     void forces_and_motion(bool predict);
+    void use_new_records(bool predicted);
     void check_motion();
     void bin();
     void pair_forces();

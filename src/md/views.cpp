@@ -84,6 +84,7 @@ analysis::Snapshot Simulation::snapshot() const {
         s.omega_x.push_back(w.x);
         s.omega_y.push_back(w.y);
         s.image_z.push_back(state_.images(i, 2));
+        if (plan_.orientation) s.orientation.push_back(state_.orientation_of(i));
     }
     s.walls = walls_.shapes(time());
     return s;
@@ -120,6 +121,10 @@ Hash128 Simulation::state_hash() const {
         for (int dof = 0; dof < state_.dofs(); ++dof)
             for (int k = 2; k < state_.order; ++k) values.push_back(state_.value(i, dof, k));
         values.push_back(state_.mass[i]);
+        if (plan_.orientation) {
+            const Quaternion q = state_.orientation_of(i);
+            values.insert(values.end(), {q.w, q.x, q.y, q.z});
+        }
         for (std::size_t d = 0; d < 3; ++d) values.push_back(state_.images(i, d));
     }
     values.push_back(static_cast<double>(step_));

@@ -30,7 +30,7 @@ enum class LeverArm {
     plane
 };                                    // R, or the distance to the plane of the contact (docs/physics.md 2)
 enum class Outside { error, remove }; // what happens to a grain that leaves an open side of the domain
-enum class GrainKind { lattice, random, pour, list, file };
+enum class GrainKind { lattice, random, pour, factory, list, file };
 enum class SizeLaw { constant, uniform, inverse_square, lognormal };
 // plane, segment, polyline, arc, grains: 2D; plane, box, cylinder, cone, mesh: 3D.
 enum class WallKind { plane, segment, polyline, arc, grains, box, cylinder, cone, mesh };
@@ -116,6 +116,13 @@ struct Grains {
     std::vector<GrainItem> items;
 };
 
+// Grains whose centres lie in a box when it is looked at, every 256 steps, are removed and counted.
+struct Sink {
+    std::string name;
+    Vec lower, upper;
+    double start = 0; // s
+};
+
 // A wall; several elements of one wall share material and motion.
 struct Wall {
     std::string name;
@@ -169,6 +176,7 @@ struct Md {
     Body body = Body::sphere;
     bool cut = true; // normal forces end at zero: contacts do not pull
     LeverArm lever_arm = LeverArm::undeformed;
+    bool orientation = false; // 3D: follows the orientations of the grains
 };
 
 enum class Axis { x, y, z };
@@ -218,6 +226,7 @@ struct Scene {
     std::vector<MaterialPair> pairs;
     std::vector<Grains> grains;
     std::vector<Wall> walls;
+    std::vector<Sink> sinks;
     std::vector<Motion> motions;
     Md md;
     std::vector<AnalysisSpec> analyses;

@@ -170,6 +170,10 @@ const Table<Md>& md_table() {
                 "lever_arm", &Md::lever_arm, {"undeformed", "plane"},
                 "lever arm of tangential forces: the radius, or the distance to the plane of the contact, "
                 "which conserves the angular momentum of pairs")
+            .flag("orientation", &Md::orientation,
+                  "follows the orientations of the grains, as quaternions in trajectories that have them; no "
+                  "force depends on them")
+            .only(3, "the angle of the grains, which is always followed with friction")
             .choice("tangential", &Md::tangential, tangential_choices(), "tangential force")
             .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6", "velocity-verlet"},
                     "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet")
