@@ -212,8 +212,7 @@ struct Output {
     std::vector<Trajectory> trajectory{Trajectory::dump};
     Colour colour = Colour::speed;
     std::int64_t picture_width = 800; // pixels
-    // 3D pictures: azimuth about the upward direction and elevation of the viewer, degrees
-    std::array<double, 2> view{25, 20};
+    Vec view;                         // 3D: direction to the viewer of pictures; 0: chosen by gravity
     bool movie = true;
     bool report = true;
 };
