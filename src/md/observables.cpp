@@ -16,17 +16,24 @@ struct ContactForce {
     Vec force;         // N, on the first grain
     double tangential; // N: along the tangent in 2D, its magnitude in 3D
     double overlap, energy;
+    Vec turning, couple; // torque on the first grain: R turning + couple, on its partner: R turning - couple
 };
 
 using Relative = laws::SpatialState<double>;
 using Coefficients = laws::PairCoefficients<double>;
 
-ContactForce evaluate(const laws::PairForce<double>& f) {
-    return {{f.x, f.y, 0}, f.tangential, f.overlap, 0};
+Vec vec(const Vector<double>& v) {
+    return {v.x, v.y, v.z};
 }
-ContactForce evaluate(const laws::SpatialForce<double>& f) {
-    const Vec turning{f.turning.x, f.turning.y, f.turning.z};
-    return {{f.force.x, f.force.y, f.force.z}, norm(turning), f.overlap, 0};
+
+// n: unit normal.
+ContactForce evaluate(const laws::PairForce<double>& f, Vec n) {
+    const Vec force{f.x, f.y, 0};
+    return {force, cross(n, force).z, f.overlap, 0, {0, 0, f.tangential}, {0, 0, f.couple}};
+}
+ContactForce evaluate(const laws::SpatialForce<double>& f, Vec n) {
+    const Vec force = vec(f.force);
+    return {force, norm(cross(n, force)), f.overlap, 0, vec(f.turning), vec(f.couple)};
 }
 
 // `remembered`: what the contact holds, or null if it is new.
@@ -35,14 +42,15 @@ ContactForce contact_force(const Relative& s, const Coefficients& c, const doubl
     constexpr int numbers = laws::memory_of<Normal, Tangential, dimension>;
     double memory[numbers + 1] = {laws::no_contact};
     if (remembered != nullptr) std::copy_n(remembered, numbers, memory);
+    const Vec d = vec(s.d), n = (1 / norm(d)) * d;
     ContactForce f;
     if constexpr (dimension == 3) {
-        f = evaluate(laws::pair_force<Normal, Tangential, couples>(s, c, memory, 0.0));
+        f = evaluate(laws::pair_force<Normal, Tangential, couples>(s, c, memory, 0.0), n);
     } else {
         const laws::PairState<double> plane{
             s.d.x,           s.d.y,    s.dv.x,     s.dv.y,   s.spin.z,           s.radius_sum,
             s.inverse_radii, s.turn.z, s.differ.z, s.radius, s.square_difference};
-        f = evaluate(laws::pair_force<Normal, Tangential, couples>(plane, c, memory, 0.0));
+        f = evaluate(laws::pair_force<Normal, Tangential, couples>(plane, c, memory, 0.0), n);
     }
     f.energy = laws::elastic_energy<Normal, Tangential, dimension>(f.overlap, s.inverse_radii, c, memory);
     return f;
@@ -67,6 +75,7 @@ struct Found {
     ContactForce force;
     const WallElement* element;    // null: a pair of grains
     Vec wall_point, wall_velocity; // of the material on the surface of the wall
+    Vec wall_torque, wall_spin;    // torque on the wall besides that of -force at wall_point; its rotation
 };
 
 class Search {
@@ -107,7 +116,7 @@ private:
             const bool known = memories_.pairs.find(state_.id[i], state_.id[j], memory);
             const ContactForce f =
                 kernel_(s, coefficients_of(state_.material[i], state_.material[j]), known ? memory : nullptr);
-            body(Found{i, j, (1 / norm(d)) * d, f, nullptr, {}, {}});
+            body(Found{i, j, (1 / norm(d)) * d, f, nullptr, {}, {}, {}, {}});
         });
     }
 
@@ -132,7 +141,9 @@ private:
                 f,
                 &element,
                 state_.position(i) + (c.distance - c.radius) * n,
-                c.velocity + c.spin * Vec{n.y, -n.x, 0}};
+                c.velocity + c.spin * Vec{n.y, -n.x, 0},
+                c.radius * (f.turning - cross(n, f.force)) - f.couple,
+                c.angular_velocity};
     }
 
     static Vector<double> vector(Vec v) { return {v.x, v.y, v.z}; }
@@ -192,8 +203,8 @@ void add_grains(const scene::Scene& scene, const Plan& plan, const State& state,
 void add_wall_load(const Walls& walls, const Found& c, WallLoad& load) {
     const Vec arm = c.wall_point - walls.pivot(*c.element), force = c.force.force;
     load.force = load.force - force;
-    load.torque = load.torque - cross(arm, force);
-    load.power += dot(force, c.wall_velocity);
+    load.torque = load.torque + c.wall_torque - cross(arm, force);
+    load.power += dot(force, c.wall_velocity) - dot(c.wall_torque, c.wall_spin);
 }
 
 } // namespace
