@@ -51,6 +51,7 @@ public:
             grains = random(placed, walls);
             break;
         case GrainKind::pour:
+        case GrainKind::factory:
             grains = pour();
             break;
         case GrainKind::list:
@@ -140,6 +141,7 @@ private:
             const Vec u = uniform_point(place, static_cast<std::uint64_t>(n), dimension_);
             grains.push_back(grain(region_.lower + scaled(u, region_.size()), radius(grains.size())));
             grains.back().insert_at = grains_.start + static_cast<double>(n) / grains_.rate;
+            if (grains_.kind == GrainKind::factory) grains.back().factory = static_cast<int>(index_);
         }
         return grains;
     }
@@ -203,6 +205,7 @@ double expected_grains(const Scene& scene, std::size_t index) {
                    grain_content(std::sqrt(g.sizes.min * g.sizes.max), dimension);
         return static_cast<double>(g.count);
     case GrainKind::pour:
+    case GrainKind::factory:
         return static_cast<double>(g.count);
     case GrainKind::list:
         return static_cast<double>(g.items.size());
@@ -210,6 +213,13 @@ double expected_grains(const Scene& scene, std::size_t index) {
         return 0;
     }
     return 0;
+}
+
+Vec factory_place(const Scene& scene, std::size_t index, std::int64_t id, std::uint64_t attempt) {
+    const Region where = region(scene, scene.grains[index]);
+    const Random place(static_cast<std::uint64_t>(scene.seed), Stream::factory,
+                       static_cast<std::uint32_t>(id));
+    return where.lower + scaled(uniform_point(place, attempt, scene.domain.dimension), where.size());
 }
 
 std::string population_name(const Scene& scene, std::size_t index) {

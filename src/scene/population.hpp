@@ -31,4 +31,8 @@ namespace sandlane::scene {
                                                    const Scene& scene, const Grains& grains,
                                                    const GrainState& prototype);
 
+// Where a factory's grain may come to be: the place that belongs to this attempt, below 2^63, to insert it.
+[[nodiscard]] Vec factory_place(const Scene& scene, std::size_t index, std::int64_t id,
+                                std::uint64_t attempt);
+
 } // namespace sandlane::scene

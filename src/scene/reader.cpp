@@ -109,6 +109,8 @@ Scene scene_from(const Value& root) {
             read_list(scene.grains, grains_table(), value, key, dimension);
         else if (key == "walls")
             read_list(scene.walls, wall_table(), value, key, dimension);
+        else if (key == "sinks")
+            read_list(scene.sinks, sink_table(), value, key, dimension);
         else if (key == "motions")
             read_list(scene.motions, motion_table(), value, key, dimension);
         else if (key == "md")
@@ -120,8 +122,8 @@ Scene scene_from(const Value& root) {
         else
             rest.members.push_back({key, value});
     }
-    std::vector<std::string> known = {"domain",  "materials", "pairs",    "grains", "walls",
-                                      "motions", "md",        "analysis", "output"};
+    std::vector<std::string> known = {"domain", "materials", "pairs", "grains",   "walls",
+                                      "sinks",  "motions",   "md",    "analysis", "output"};
     for (const Field<Scene>& field : scene_table().fields()) known.push_back(field.name);
     for (const auto& [key, value] : rest.members) {
         bool found = false;
@@ -178,6 +180,7 @@ std::string write_scene(const Scene& scene) {
     write_list(text, "pairs", pair_table(), scene.pairs, dimension);
     write_list(text, "grains", grains_table(), scene.grains, dimension);
     write_list(text, "walls", wall_table(), scene.walls, dimension);
+    write_list(text, "sinks", sink_table(), scene.sinks, dimension);
     write_list(text, "motions", motion_table(), scene.motions, dimension);
     text += "\n[md]\n" + md_table().write(scene.md, dimension);
     write_list(text, "analysis", analysis_table(), scene.analyses, dimension);
