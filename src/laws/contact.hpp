@@ -206,8 +206,9 @@ double elastic_energy(double overlap, double inverse_radii, const PairCoefficien
     const NormalInput<double> input{overlap,           0,          c.elastic, c.dissipative,
                                     1 / inverse_radii, c.cohesion, c.least};
     const double normal = Normal::energy(input, memory + tangential_memory<Tangential, dimension>);
-    if constexpr (dimension == 3) return normal + Tangential::energy_in_space(c.tangential_stiffness, memory);
-    return normal + Tangential::energy(c.tangential_stiffness, memory);
+    if constexpr (dimension == 3)
+        return normal + Tangential::energy_in_space(c.tangential_stiffness, c.friction, memory);
+    return normal + Tangential::energy(c.tangential_stiffness, c.friction, memory);
 }
 
 } // namespace sandlane::laws

@@ -27,6 +27,7 @@ template <class R> struct SpatialInput {
 // A law returns f_t on grain i along t, or as a vector [N]. `memory` numbers per contact (`memory_in_space`
 // in 3D) live as long as the contact does; both partners see the same numbers in 2D and opposite ones in 3D.
 // At its first evaluation they are zero, and so is the time elapsed. Laws without memory do not look at them.
+// energy, energy_in_space: what the contact holds and can give back, J, from k_t, mu and its memory.
 // in_space: the law has a form in 3D.
 struct Frictionless {
     static constexpr bool needs_spin = false, needs_twist = false, in_space = true;
@@ -35,8 +36,8 @@ struct Frictionless {
     template <class R> static SANDLANE_INLINE Vector<R> force(const SpatialInput<R>&, R*) {
         return {R(0.0), R(0.0), R(0.0)};
     }
-    template <class R> static SANDLANE_INLINE R energy(const R&, const R*) { return R(0.0); }
-    template <class R> static SANDLANE_INLINE R energy_in_space(const R&, const R*) { return R(0.0); }
+    static double energy(double, double, const double*) { return 0; }
+    static double energy_in_space(double, double, const double*) { return 0; }
 };
 
 // f_t = -sign(v_t) min(gamma_t |v_t|, mu f_n) (2.18), written as a clamp so that v_t = 0 gives zero.
@@ -52,8 +53,8 @@ struct HaffWerner {
         const R speed = sqrt(dot(c.velocity, c.velocity));
         return -min(c.friction * c.normal_force / speed, c.damping) * c.velocity;
     }
-    template <class R> static SANDLANE_INLINE R energy(const R&, const R*) { return R(0.0); }
-    template <class R> static SANDLANE_INLINE R energy_in_space(const R&, const R*) { return R(0.0); }
+    static double energy(double, double, const double*) { return 0; }
+    static double energy_in_space(double, double, const double*) { return 0; }
 };
 
 // A spring zeta in the tangential direction, held by Coulomb friction (2.20)-(2.21):
@@ -94,12 +95,12 @@ struct CundallStrack {
         zeta[2] = held.z;
         return force;
     }
-    // Elastic energy k_t zeta^2/2 [J].
-    template <class R> static SANDLANE_INLINE R energy(const R& stiffness, const R* zeta) {
-        return R(0.5) * stiffness * zeta[0] * zeta[0];
+    // k_t zeta^2/2.
+    static double energy(double stiffness, double, const double* zeta) {
+        return 0.5 * stiffness * zeta[0] * zeta[0];
     }
-    template <class R> static SANDLANE_INLINE R energy_in_space(const R& stiffness, const R* zeta) {
-        return R(0.5) * stiffness * (zeta[0] * zeta[0] + zeta[1] * zeta[1] + zeta[2] * zeta[2]);
+    static double energy_in_space(double stiffness, double, const double* zeta) {
+        return 0.5 * stiffness * (zeta[0] * zeta[0] + zeta[1] * zeta[1] + zeta[2] * zeta[2]);
     }
 
 private:
@@ -137,8 +138,17 @@ struct WaltonBraunTangential {
         m[3] = c.normal_force;
         return -m[0];
     }
-    // What it holds is not told from what it lost: none is counted.
-    template <class R> static SANDLANE_INLINE R energy(const R&, const R*) { return R(0.0); }
+    // What unloading gives back at the present load L = mu f_n: the integral of F dF/k_t from F to zero. On the
+    // way to zero k_t counts from F*, else a reversal makes F the turning point.
+    static double energy(double stiffness, double friction, const double* m) {
+        const double limit = friction * m[3], size = m[0] < 0 ? -m[0] : m[0];
+        const double whole = limit + size, turn = limit + (m[0] < 0 ? -m[1] : m[1]);
+        if (!(size > 0)) return 0;
+        const double root = cube_root(limit / whole);
+        const double fresh = 0.6 * whole * whole - 1.5 * limit * whole + 0.9 * limit * whole * root * root;
+        const bool unloads = m[0] * m[2] < 0 && turn > whole;
+        return (unloads ? fresh / cube_root(whole / turn) : fresh) / stiffness;
+    }
 };
 
 } // namespace sandlane::laws

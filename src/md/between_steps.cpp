@@ -79,7 +79,7 @@ void Simulation::fail_overlap() const {
     const auto centre = [&](std::size_t i) { return state_.position(i); };
     double worst = -infinity, distance = 0;
     std::size_t first = 0, second = 0;
-    for_near_pairs(scene_, state_, centre, [&](std::size_t i, std::size_t j, Vec d) {
+    for_near_pairs(box(static_cast<double>(force_step_) * plan_.dt), state_, centre, [&](std::size_t i, std::size_t j, Vec d) {
         const double overlap = state_.radius(i) + state_.radius(j) - norm(d);
         if (overlap <= worst) return;
         worst = overlap;

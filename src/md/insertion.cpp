@@ -22,7 +22,7 @@ constexpr int tries = 20;           // places that a factory looks at in one att
 class Simulation::Room {
 public:
     explicit Room(const Simulation& simulation)
-        : simulation_(simulation), box_(simulation.scene_.domain),
+        : simulation_(simulation), box_(simulation.box(simulation.time())),
           grid_(box_, 2 * simulation.needs_.radius_max,
                 simulation.state_.size() + simulation.waiting_.size() - simulation.next_waiting_) {
         for (std::size_t i = 0; i < simulation.state_.size(); ++i)
@@ -79,11 +79,11 @@ void Simulation::insert_due() {
                              [](const auto& a, const auto& b) { return a.insert_at < b.insert_at; });
             continue;
         }
-        state_.append(grain, plan_.dt);
+        state_.append(with_shear_flow(grain), plan_.dt);
         room.add(grain.position);
         const std::size_t i = state_.size() - 1;
         const std::vector<double> no_force(state_.force_stride());
-        state_.set_accelerations(i, no_force.data(), motion_view());
+        state_.set_accelerations(i, no_force.data(), motion_view(force_step_));
         added_energy_ += grain_energy(scene_, plan_, state_, i);
         ++next_waiting_;
         inserted = true;

@@ -16,7 +16,8 @@ struct ContactScale {
     double damping_ratio = 0;  // of critical
     double collision_time = 0; // s
     double restitution = 1;
-    double overlap = 0; // m, largest
+    double overlap = 0;    // m, largest
+    double half_swing = 0; // s: steps resolve this; most laws' collision time, pi/frequency if that is shorter
 };
 
 using Coefficients = laws::PairCoefficients<double>;
@@ -26,10 +27,12 @@ inline double harmonic(double a, double b) {
 }
 
 // Restitution coefficient of a head-on collision of reduced mass m, by its equation of motion: steps of a
-// thousandth of `time` with the midpoint rule, until the overlap is gone. Two grains that stick: 0.
+// thousandth of `time` with the midpoint rule, until the overlap is gone, at an instant within a step. Two
+// grains that stick: 0. For laws without memory.
 template <class Law>
 double collide(const Coefficients& c, double mass, double radius, double speed, double time) {
-    double overlap = 0, rate = speed, memory[Law::memory + 1] = {};
+    static_assert(Law::memory == 0);
+    double overlap = 0, rate = speed, memory[1] = {};
     const double dt = time / 1000;
     const auto acceleration = [&](double xi, double v) {
         const double positive = xi > 0 ? xi : 0.0;
@@ -38,9 +41,11 @@ double collide(const Coefficients& c, double mass, double radius, double speed, 
     for (int step = 0; step < 20000; ++step) {
         const double half = rate + 0.5 * dt * acceleration(overlap, rate);
         const double middle = overlap + 0.5 * dt * rate;
+        const double old_overlap = overlap, old_rate = rate;
         overlap += dt * half;
         rate += dt * acceleration(middle, half);
-        if (overlap <= 0) return -rate / speed;
+        if (overlap <= 0)
+            return -(old_rate + (rate - old_rate) * old_overlap / (old_overlap - overlap)) / speed;
     }
     return 0;
 }
@@ -65,7 +70,7 @@ template <> struct LawTraits<laws::LinearDashpot> {
                      time = std::numbers::pi / frequency;
         const double restitution = c.least == 0 ? laws::linear_dashpot_restitution(ratio)
                                                 : collide<laws::LinearDashpot>(c, mass, radius, speed, time);
-        return {frequency, ratio, time, restitution, speed / frequency};
+        return {frequency, ratio, time, restitution, speed / frequency, time};
     }
 };
 
@@ -90,7 +95,8 @@ template <> struct LawTraits<laws::Viscoelastic> {
         const double time = 3.2180654597 * std::pow(mass / k, 0.4) * std::pow(speed, -0.2);
         const double restitution = c.least == 0 ? laws::viscoelastic_restitution(x)
                                                 : collide<laws::Viscoelastic>(c, mass, radius, speed, time);
-        return {frequency, a * k * std::sqrt(overlap) / (2 * mass * frequency), time, restitution, overlap};
+        const double ratio = a * k * std::sqrt(overlap) / (2 * mass * frequency);
+        return {frequency, ratio, time, restitution, overlap, time};
     }
 };
 
@@ -107,16 +113,42 @@ template <> struct LawTraits<laws::WaltonBraun> {
     // Unloading is the faster half of the collision (2.4).
     static ContactScale scale(const Coefficients& c, double mass, double, double speed) {
         const double loading = std::sqrt(c.elastic / mass), unloading = std::sqrt(c.dissipative / mass);
-        return {unloading, 0, 0.5 * std::numbers::pi * (1 / loading + 1 / unloading),
-                std::sqrt(c.elastic / c.dissipative), speed / loading};
+        ContactScale s;
+        s.frequency = unloading;
+        s.collision_time = 0.5 * std::numbers::pi * (1 / loading + 1 / unloading);
+        s.restitution = std::sqrt(c.elastic / c.dissipative);
+        s.overlap = speed / loading;
+        s.half_swing = std::numbers::pi / unloading;
+        return s;
     }
 };
 
+// The pull draws grains deeper together, where the contact is stiffer.
 template <> struct LawTraits<laws::CohesiveViscoelastic> : LawTraits<laws::Viscoelastic> {
     static ContactScale scale(const Coefficients& c, double mass, double radius, double speed) {
-        ContactScale scale = LawTraits<laws::Viscoelastic>::scale(c, mass, radius, speed);
-        scale.restitution = collide<laws::CohesiveViscoelastic>(c, mass, radius, speed, scale.collision_time);
-        return scale;
+        ContactScale s = LawTraits<laws::Viscoelastic>::scale(c, mass, radius, speed);
+        const double stiffer = std::pow(largest_overlap(c, mass, radius, speed) / s.overlap, 0.25);
+        s.frequency *= stiffer;
+        s.collision_time /= stiffer;
+        s.half_swing /= stiffer;
+        s.damping_ratio *= stiffer;
+        s.overlap *= std::pow(stiffer, 4);
+        s.restitution = collide<laws::CohesiveViscoelastic>(c, mass, radius, speed, s.collision_time);
+        return s;
+    }
+
+private:
+    // Without loss: m g^2/2 = (2/5) K xi^{5/2} - 2 pi c R_eff xi^2. As a fixed point it attracts: the slope is
+    // below 0.8.
+    static double largest_overlap(const Coefficients& c, double mass, double radius, double speed) {
+        const double k = c.elastic * std::sqrt(radius);
+        double overlap = 0;
+        for (int n = 0; n < 100; ++n) {
+            const double energy = 0.5 * mass * speed * speed +
+                                  2 * std::numbers::pi * c.cohesion * radius * overlap * overlap;
+            overlap = std::pow(2.5 * energy / k, 0.4);
+        }
+        return overlap;
     }
 };
 

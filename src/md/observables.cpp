@@ -16,17 +16,24 @@ struct ContactForce {
     Vec force;         // N, on the first grain
     double tangential; // N: along the tangent in 2D, its magnitude in 3D
     double overlap, energy;
+    Vec turning, couple; // torque on the first grain: R turning + couple, on its partner: R turning - couple
 };
 
 using Relative = laws::SpatialState<double>;
 using Coefficients = laws::PairCoefficients<double>;
 
-ContactForce evaluate(const laws::PairForce<double>& f) {
-    return {{f.x, f.y, 0}, f.tangential, f.overlap, 0};
+Vec vec(const Vector<double>& v) {
+    return {v.x, v.y, v.z};
 }
-ContactForce evaluate(const laws::SpatialForce<double>& f) {
-    const Vec turning{f.turning.x, f.turning.y, f.turning.z};
-    return {{f.force.x, f.force.y, f.force.z}, norm(turning), f.overlap, 0};
+
+// n: unit normal.
+ContactForce evaluate(const laws::PairForce<double>& f, Vec n) {
+    const Vec force{f.x, f.y, 0};
+    return {force, cross(n, force).z, f.overlap, 0, {0, 0, f.tangential}, {0, 0, f.couple}};
+}
+ContactForce evaluate(const laws::SpatialForce<double>& f, Vec n) {
+    const Vec force = vec(f.force);
+    return {force, norm(cross(n, force)), f.overlap, 0, vec(f.turning), vec(f.couple)};
 }
 
 // `remembered`: what the contact holds, or null if it is new.
@@ -35,14 +42,15 @@ ContactForce contact_force(const Relative& s, const Coefficients& c, const doubl
     constexpr int numbers = laws::memory_of<Normal, Tangential, dimension>;
     double memory[numbers + 1] = {laws::no_contact};
     if (remembered != nullptr) std::copy_n(remembered, numbers, memory);
+    const Vec d = vec(s.d), n = (1 / norm(d)) * d;
     ContactForce f;
     if constexpr (dimension == 3) {
-        f = evaluate(laws::pair_force<Normal, Tangential, couples>(s, c, memory, 0.0));
+        f = evaluate(laws::pair_force<Normal, Tangential, couples>(s, c, memory, 0.0), n);
     } else {
         const laws::PairState<double> plane{
             s.d.x,           s.d.y,    s.dv.x,     s.dv.y,   s.spin.z,           s.radius_sum,
             s.inverse_radii, s.turn.z, s.differ.z, s.radius, s.square_difference};
-        f = evaluate(laws::pair_force<Normal, Tangential, couples>(plane, c, memory, 0.0));
+        f = evaluate(laws::pair_force<Normal, Tangential, couples>(plane, c, memory, 0.0), n);
     }
     f.energy = laws::elastic_energy<Normal, Tangential, dimension>(f.overlap, s.inverse_radii, c, memory);
     return f;
@@ -67,13 +75,15 @@ struct Found {
     ContactForce force;
     const WallElement* element;    // null: a pair of grains
     Vec wall_point, wall_velocity; // of the material on the surface of the wall
+    Vec wall_torque, wall_spin;    // torque on the wall besides that of -force at wall_point; its rotation
 };
 
 class Search {
 public:
     Search(const scene::Scene& scene, const Plan& plan, const State& state, const Walls& walls,
-           const std::vector<double>& coefficients, const ContactMemories& memories)
+           const std::vector<double>& coefficients, const ContactMemories& memories, const scene::Box& box)
         : scene_(scene), state_(state), walls_(walls), coefficients_(coefficients), memories_(memories),
+          box_(box),
           kernel_(contact_kernel(plan)), rate_(1 / plan.dt) {}
 
     template <class Body> void for_contacts(const Body& body) const {
@@ -88,10 +98,11 @@ private:
     template <class Body> void for_pairs(const Body& body) const {
         const auto position = [&](std::size_t i) { return state_.position(i); };
         double memory[laws::most_memory];
-        for_near_pairs(scene_, state_, position, [&](std::size_t i, std::size_t j, Vec d) {
+        for_near_pairs(box_, state_, position, [&](std::size_t i, std::size_t j, Vec d) {
             const double reach = state_.radius(i) + state_.radius(j);
             if (!(dot(d, d) < reach * reach)) return;
-            const Vec dv = rate_ * (state_.shift(j) - state_.shift(i));
+            Vec dv = rate_ * (state_.shift(j) - state_.shift(i));
+            dv.x -= box_.crossings(state_.position(i), state_.position(j)) * scene_.domain.shear_rate * box_.size().y;
             const double ri = state_.radius(i), rj = state_.radius(j);
             const Relative s{vector(d),
                              vector(dv),
@@ -105,7 +116,7 @@ private:
             const bool known = memories_.pairs.find(state_.id[i], state_.id[j], memory);
             const ContactForce f =
                 kernel_(s, coefficients_of(state_.material[i], state_.material[j]), known ? memory : nullptr);
-            body(Found{i, j, (1 / norm(d)) * d, f, nullptr, {}, {}});
+            body(Found{i, j, (1 / norm(d)) * d, f, nullptr, {}, {}, {}, {}});
         });
     }
 
@@ -130,7 +141,9 @@ private:
                 f,
                 &element,
                 state_.position(i) + (c.distance - c.radius) * n,
-                c.velocity + c.spin * Vec{n.y, -n.x, 0}};
+                c.velocity + c.spin * Vec{n.y, -n.x, 0},
+                c.radius * (f.turning - cross(n, f.force)) - f.couple,
+                c.angular_velocity};
     }
 
     static Vector<double> vector(Vec v) { return {v.x, v.y, v.z}; }
@@ -147,6 +160,7 @@ private:
     const Walls& walls_;
     const std::vector<double>& coefficients_;
     const ContactMemories& memories_;
+    const scene::Box& box_;
     ContactKernel kernel_;
     double rate_; // 1/s, from displacements per step to velocities
 };
@@ -189,14 +203,14 @@ void add_grains(const scene::Scene& scene, const Plan& plan, const State& state,
 void add_wall_load(const Walls& walls, const Found& c, WallLoad& load) {
     const Vec arm = c.wall_point - walls.pivot(*c.element), force = c.force.force;
     load.force = load.force - force;
-    load.torque = load.torque - cross(arm, force);
-    load.power += dot(force, c.wall_velocity);
+    load.torque = load.torque + c.wall_torque - cross(arm, force);
+    load.power += dot(force, c.wall_velocity) - dot(c.wall_torque, c.wall_spin);
 }
 
 } // namespace
 
 Observables observe(const scene::Scene& scene, const Plan& plan, const State& state, const Walls& walls,
-                    const std::vector<double>& coefficients, const ContactMemories& memories) {
+                    const std::vector<double>& coefficients, const ContactMemories& memories, const scene::Box& box) {
     Observables o;
     o.grains = static_cast<std::int64_t>(state.size());
     o.pressure.assign(state.size(), 0.0);
@@ -208,7 +222,7 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
         const double r = state.radius(i), area = 2 * std::numbers::pi * r;
         o.pressure[i] += inward / (plan.dimension == 3 ? 2 * r * area : area);
     };
-    Search(scene, plan, state, walls, coefficients, memories).for_contacts([&](const Found& c) {
+    Search(scene, plan, state, walls, coefficients, memories, box).for_contacts([&](const Found& c) {
         const double inward = -dot(c.force.force, c.normal);
         o.elastic += c.force.energy;
         press(c.first, inward);
@@ -228,9 +242,9 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
 
 analysis::Contacts contacts(const scene::Scene& scene, const Plan& plan, const State& state,
                             const Walls& walls, const std::vector<double>& coefficients,
-                            const ContactMemories& memories) {
+                            const ContactMemories& memories, const scene::Box& box) {
     analysis::Contacts all;
-    Search(scene, plan, state, walls, coefficients, memories).for_contacts([&](const Found& c) {
+    Search(scene, plan, state, walls, coefficients, memories, box).for_contacts([&](const Found& c) {
         analysis::Contact& to = all.emplace_back();
         to.i = static_cast<std::int32_t>(c.first);
         to.normal = c.normal;

@@ -201,7 +201,7 @@ Derived derive(const Scene& scene, const Needs& needs) {
         const ContactScale fast = scale(c, light, 0.5 * needs.radius_min);
         const ContactScale deep = scale(c, heavy, needs.radius_max);
         d.collision_time = std::min(d.collision_time, fast.collision_time);
-        bound(stable_phase(order, fast.damping_ratio) / fast.frequency, fast.collision_time / 50);
+        bound(stable_phase(order, fast.damping_ratio) / fast.frequency, fast.half_swing / 50);
         d.restitution_min = std::min({d.restitution_min, fast.restitution, deep.restitution});
         d.restitution_max = std::max({d.restitution_max, fast.restitution, deep.restitution});
         d.overlap_ratio = std::max(d.overlap_ratio, deep.overlap / needs.radius_min);
@@ -281,12 +281,13 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     if (plan.memory > 0) {
         if (wanted != NeighbourMethod::automatic && wanted != NeighbourMethod::verlet)
             fail(Exit::invalid_input,
-                 "md.neighbours = \"{}\": the contacts of md.tangential = \"{}\" remember, which only lists "
-                 "of pairs can hold; use \"auto\" or \"verlet\"",
+                 "md.neighbours = \"{}\": the contacts of md.normal = \"{}\" with md.tangential = \"{}\" "
+                 "remember, which only lists of pairs can hold; use \"auto\" or \"verlet\"",
                  scene::neighbour_choices()[static_cast<std::size_t>(wanted)],
+                 scene::normal_choices()[static_cast<std::size_t>(scene.md.normal)],
                  scene::tangential_choices()[static_cast<std::size_t>(scene.md.tangential)]);
         plan.neighbours = NeighbourMethod::verlet;
-        plan.chosen.push_back("neighbours: Verlet lists, contacts remember their tangential spring");
+        plan.chosen.push_back("neighbours: Verlet lists, the contacts remember");
         return;
     }
     plan.neighbours = wanted;
@@ -303,7 +304,8 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     // A function of the scene alone. Lists are measured to be the fastest from a few grains on, at any
     // density; `tools/bench kernels` shows it.
     const std::size_t few = 32;
-    const bool small = needs.grains + needs.poured <= few;
+    const bool sheared = scene.domain.shear_rate != 0; // only lists know the seam
+    const bool small = needs.grains + needs.poured <= few && !sheared;
     plan.neighbours = small ? NeighbourMethod::brute_force : NeighbourMethod::verlet;
     plan.chosen.push_back(small ? fmt::format("neighbours: brute force, {} grains or fewer", few)
                                 : "neighbours: Verlet lists, the fastest for more than a few grains");

@@ -10,6 +10,7 @@
 #include "md/plan.hpp"
 #include "md/state.hpp"
 #include "md/walls.hpp"
+#include "scene/cell_grid.hpp"
 #include "scene/scene.hpp"
 
 #include <cstdint>
@@ -100,7 +101,10 @@ private:
     void use_link_cells();
     [[noreturn]] void fail_overlap() const;
     void check_overlap(double overlap) const;
-    [[nodiscard]] simd::MotionView motion_view();
+    [[nodiscard]] simd::MotionView motion_view(std::int64_t predicted);
+    [[nodiscard]] scene::GrainState with_shear_flow(scene::GrainState grain) const;
+    [[nodiscard]] double seam(double time) const;
+    [[nodiscard]] scene::Box box(double time) const;
     [[nodiscard]] simd::PairView pair_view();
     [[nodiscard]] std::int64_t insertion_step(const scene::GrainState& grain) const;
     [[nodiscard]] std::int64_t next_stop(std::int64_t end) const;

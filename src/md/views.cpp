@@ -15,7 +15,7 @@ Observables Simulation::observe() const {
     Walls now = walls_;
     now.move_to(time());
     const ContactMemory pairs = lists_.memory(state_), walls = walls_.memory(state_);
-    return md::observe(scene_, plan_, state_, now, coefficients_, {pairs, walls});
+    return md::observe(scene_, plan_, state_, now, coefficients_, {pairs, walls}, box(time()));
 }
 
 std::vector<double> Simulation::forces(simd::Isa isa, NeighbourMethod method) const {
@@ -61,7 +61,7 @@ analysis::Snapshot Simulation::snapshot() const {
     s.periodic_y = scene_.domain.periodic[1];
     s.periodic_z = scene_.domain.periodic[2];
     const Observables now = observe();
-    const scene::Box box(scene_.domain);
+    const scene::Box box = this->box(time());
     const double rate = 1 / plan_.dt;
     for (const std::size_t i : by_id(state_)) {
         const Vec p = box.wrapped(state_.position(i)), v = rate * state_.shift(i), w = rate * state_.turn(i);
@@ -94,7 +94,7 @@ analysis::Contacts Simulation::contacts() const {
     Walls now = walls_;
     now.move_to(time());
     const ContactMemory pairs = lists_.memory(state_), walls = walls_.memory(state_);
-    analysis::Contacts all = md::contacts(scene_, plan_, state_, now, coefficients_, {pairs, walls});
+    analysis::Contacts all = md::contacts(scene_, plan_, state_, now, coefficients_, {pairs, walls}, box(time()));
     std::vector<std::int32_t> place(state_.size()); // storage index -> index in the snapshot
     std::int32_t next = 0;
     for (const std::size_t i : by_id(state_)) place[i] = next++;

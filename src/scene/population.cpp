@@ -41,14 +41,14 @@ public:
         prototype_.angular_velocity = grains_.angular_velocity;
     }
 
-    std::vector<GrainState> make(const std::vector<GrainState>& placed) const {
+    std::vector<GrainState> make(const std::vector<GrainState>& placed, const StandingWalls& walls) const {
         std::vector<GrainState> grains;
         switch (grains_.kind) {
         case GrainKind::lattice:
             grains = lattice();
             break;
         case GrainKind::random:
-            grains = random(placed);
+            grains = random(placed, walls);
             break;
         case GrainKind::pour:
         case GrainKind::factory:
@@ -106,9 +106,10 @@ private:
                 static_cast<double>(layer)};
     }
 
-    [[nodiscard]] std::vector<GrainState> random(const std::vector<GrainState>& placed) const {
-        PackingTask task{name_, Box(scene_.domain),    region_.lower,           region_.upper, random_radii(),
-                         {},    StandingWalls(scene_), stream(Stream::position)};
+    [[nodiscard]] std::vector<GrainState> random(const std::vector<GrainState>& placed,
+                                                 const StandingWalls& walls) const {
+        PackingTask task{name_, Box(scene_.domain),      region_.lower, region_.upper, random_radii(), {},
+                         walls, stream(Stream::position)};
         for (const GrainState& g : placed)
             if (!std::isfinite(g.insert_at)) task.fixed.push_back({g.position, g.radius});
         const std::vector<Vec> centres = pack(task);
@@ -227,8 +228,8 @@ std::string population_name(const Scene& scene, std::size_t index) {
 }
 
 std::vector<GrainState> population(const Scene& scene, std::size_t index,
-                                   const std::vector<GrainState>& placed) {
-    return Maker(scene, index).make(placed);
+                                   const std::vector<GrainState>& placed, const StandingWalls& walls) {
+    return Maker(scene, index).make(placed, walls);
 }
 
 } // namespace sandlane::scene

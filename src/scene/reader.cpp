@@ -154,12 +154,21 @@ Scene parse_scene(std::string_view text, const std::string& name, const Override
 
 Scene read_scene(const std::filesystem::path& path, const Overrides& overrides) {
     Scene scene = parse_scene(read_file(path), path.string(), overrides);
-    const auto find = [&](std::string& file) { // a checkpoint is continued from another folder
-        if (!file.empty())
-            file = std::filesystem::absolute(path.parent_path() / file).lexically_normal().string();
+    const auto find = [&](std::string& file, const char* list, std::size_t n) {
+        if (file.empty()) return;
+        const std::string given = file;
+        file = std::filesystem::absolute(path.parent_path() / file).lexically_normal().string();
+        std::error_code unreadable;
+        if (!std::filesystem::exists(file, unreadable))
+            fail(
+                Exit::invalid_input,
+                "{}: {}[{}].file: \"{}\" does not exist; a name is relative to the folder of the scene file, "
+                "so this is {}",
+                path.string(), list, n, given, file);
     };
-    for (Grains& g : scene.grains) find(g.file);
-    for (Wall& w : scene.walls) find(w.file);
+    // Absolute names: a checkpoint is continued from another folder.
+    for (std::size_t n = 0; n < scene.grains.size(); ++n) find(scene.grains[n].file, "grains", n);
+    for (std::size_t n = 0; n < scene.walls.size(); ++n) find(scene.walls[n].file, "walls", n);
     return scene;
 }
 

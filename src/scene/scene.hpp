@@ -45,6 +45,7 @@ struct Domain {
     std::array<bool, 3> periodic{};
     Vec gravity; // 2D: z is the angular acceleration G_phi of the book's files
     Outside outside = Outside::remove;
+    double shear_rate = 0; // 1/s: Lees-Edwards, d v_x/d y of the periodic images
 };
 
 // One material; a law reads only its own coefficients. Mixing rules: docs/physics.md 5.

@@ -61,6 +61,25 @@ struct Validator {
                    text(scene.domain.upper), text(scene.domain.lower), spatial ? "all" : "both");
     }
 
+    void check_shear() const {
+        const Domain& d = scene.domain;
+        if (d.shear_rate == 0) return;
+        if (!std::isfinite(d.shear_rate)) reject("domain.shear_rate: {} is no number", d.shear_rate);
+        if (!d.periodic[0] || !d.periodic[1])
+            reject("domain.shear_rate: {} needs periodic = [\"x\", \"y\"]: the flow is along x and its images "
+                   "stand beyond the y sides",
+                   d.shear_rate);
+        if (d.gravity.x != 0 || d.gravity.y != 0)
+            reject("domain.shear_rate: {} and gravity [{}]: a sheared cell falls along x and y; leave gravity out",
+                   d.shear_rate, text(d.gravity));
+        const NeighbourMethod m = scene.md.neighbours;
+        if (m != NeighbourMethod::automatic && m != NeighbourMethod::verlet)
+            reject("md.neighbours: \"{}\" cannot follow domain.shear_rate; use \"auto\" or \"verlet\"",
+                   neighbour_choices()[static_cast<std::size_t>(m)]);
+        for (std::size_t n = 0; n < scene.walls.size(); ++n)
+            reject("walls[{}]: a cell with domain.shear_rate has no walls", n);
+    }
+
     // Choices that mean something in the plane only.
     void check_method() const {
         if (!spatial) return;
@@ -94,9 +113,7 @@ struct Validator {
         reject("materials[{}]." #key ": {} is out of range; md.normal = \"" name "\" needs more than 0", n,  \
                m.key);
 #include "laws/laws.def"
-            const bool springs = scene.md.tangential == TangentialLaw::cundall_strack ||
-                                 scene.md.tangential == TangentialLaw::walton_braun;
-            if (springs && !(m.tangential_stiffness > 0))
+            if (has_springs() && !(m.tangential_stiffness > 0))
                 reject("materials[{}].tangential_stiffness: {} is out of range; md.tangential = "
                        "\"{}\" needs more than 0 N/m",
                        n, m.tangential_stiffness,
@@ -105,16 +122,38 @@ struct Validator {
                 reject("materials[{}].unloading_stiffness: {} is out of range; md.normal = \"walton-braun\" "
                        "needs {} (stiffness) or more",
                        n, m.unloading_stiffness, m.stiffness);
+            check_cohesion(m.cohesion, fmt::format("materials[{}]", n));
             check_rolling(m, n);
         }
-        for (std::size_t n = 0; n < scene.pairs.size(); ++n) {
-            material_exists(scene.pairs[n].first, fmt::format("pairs[{}]", n));
-            material_exists(scene.pairs[n].second, fmt::format("pairs[{}]", n));
-            if (scene.pairs[n].stiffness == 0 || scene.pairs[n].young == 0)
-                reject("pairs[{}]: a stiffness of 0 is no contact law; allowed: above 0, or negative for the "
-                       "mixing rule",
-                       n);
-        }
+        for (std::size_t n = 0; n < scene.pairs.size(); ++n)
+            check_pair(scene.pairs[n], fmt::format("pairs[{}]", n));
+    }
+
+    [[nodiscard]] bool has_springs() const {
+        return scene.md.tangential == TangentialLaw::cundall_strack ||
+               scene.md.tangential == TangentialLaw::walton_braun;
+    }
+
+    void check_pair(const MaterialPair& pair, const std::string& path) const {
+        material_exists(pair.first, path);
+        material_exists(pair.second, path);
+        if (pair.stiffness == 0 || pair.young == 0 || (has_springs() && pair.tangential_stiffness == 0))
+            reject("{}: a stiffness of 0 is no contact law; allowed: above 0, or negative for the mixing rule",
+                   path);
+        check_cohesion(pair.cohesion, path);
+        const bool overrides = pair.stiffness > 0 || pair.unloading_stiffness >= 0;
+        if (scene.md.normal == NormalLaw::walton_braun && overrides &&
+            !(pair.stiffness > 0 && pair.unloading_stiffness >= pair.stiffness))
+            reject("{}: stiffness = {} and unloading_stiffness = {}; md.normal = \"walton-braun\" needs both or "
+                   "neither, and unloading_stiffness not below stiffness",
+                   path, pair.stiffness, pair.unloading_stiffness);
+    }
+
+    void check_cohesion(double cohesion, const std::string& path) const {
+        if (cohesion > 0 && scene.md.normal != NormalLaw::cohesive_viscoelastic)
+            reject("{}.cohesion: {} Pa has no effect with md.normal = \"{}\"; choose \"cohesive-viscoelastic\", "
+                   "or leave it out",
+                   path, cohesion, normal_choices()[static_cast<std::size_t>(scene.md.normal)]);
     }
 
     void check_rolling(const Material& m, std::size_t n) const {
@@ -338,6 +377,7 @@ void validate(const Scene& scene, const std::string& file) {
     const Validator v{scene, file};
     v.check_domain();
     v.check_method();
+    v.check_shear();
     v.check_materials();
     v.check_sinks();
     for (std::size_t n = 0; n < scene.grains.size(); ++n)
