@@ -83,8 +83,7 @@ public:
     Search(const scene::Scene& scene, const Plan& plan, const State& state, const Walls& walls,
            const std::vector<double>& coefficients, const ContactMemories& memories, const scene::Box& box)
         : scene_(scene), state_(state), walls_(walls), coefficients_(coefficients), memories_(memories),
-          box_(box),
-          kernel_(contact_kernel(plan)), rate_(1 / plan.dt) {}
+          box_(box), kernel_(contact_kernel(plan)), rate_(1 / plan.dt) {}
 
     template <class Body> void for_contacts(const Body& body) const {
         for_pairs(body);
@@ -102,7 +101,8 @@ private:
             const double reach = state_.radius(i) + state_.radius(j);
             if (!(dot(d, d) < reach * reach)) return;
             Vec dv = rate_ * (state_.shift(j) - state_.shift(i));
-            dv.x -= box_.crossings(state_.position(i), state_.position(j)) * scene_.domain.shear_rate * box_.size().y;
+            dv.x -= box_.crossings(state_.position(i), state_.position(j)) * scene_.domain.shear_rate *
+                    box_.size().y;
             const double ri = state_.radius(i), rj = state_.radius(j);
             const Relative s{vector(d),
                              vector(dv),
@@ -210,7 +210,8 @@ void add_wall_load(const Walls& walls, const Found& c, WallLoad& load) {
 } // namespace
 
 Observables observe(const scene::Scene& scene, const Plan& plan, const State& state, const Walls& walls,
-                    const std::vector<double>& coefficients, const ContactMemories& memories, const scene::Box& box) {
+                    const std::vector<double>& coefficients, const ContactMemories& memories,
+                    const scene::Box& box) {
     Observables o;
     o.grains = static_cast<std::int64_t>(state.size());
     o.pressure.assign(state.size(), 0.0);

@@ -25,9 +25,8 @@ double in_units(const double (&skins)[2], const Plan& plan, const Needs& needs) 
 PairLists::PairLists(const scene::Scene& scene, const Plan& plan, const Needs& needs)
     : cells_(scene, plan, needs.radius_max, false, in_units(outer_skin, plan, needs)), lower_(plan.lower),
       upper_(plan.upper), skin_(in_units(outer_skin, plan, needs)),
-      near_skin_(in_units(near_skin, plan, needs)),
-      shear_rate_(scene.domain.shear_rate), radius_max_(needs.radius_max), fields_(plan.memory),
-      remembered_(plan.memory, plan.odd_memory) {
+      near_skin_(in_units(near_skin, plan, needs)), shear_rate_(scene.domain.shear_rate),
+      radius_max_(needs.radius_max), fields_(plan.memory), remembered_(plan.memory, plan.odd_memory) {
     remembered_.index();
 }
 
@@ -103,7 +102,8 @@ Vec PairLists::displacement(const State& state, const simd::PairView& pairs, std
     for (std::size_t d = 0; d < dimension; ++d) moved[d] = now[d] - built[d];
     if (shear_rate_ != 0) {
         const double height = pairs.period[1], crossed = state.image[1][i] - built_image_[i];
-        moved[0] += crossed * pairs.seam - shear_rate_ * (built[1] - 0.5 * (lower_.y + upper_.y)) * (time_ - built_time_);
+        moved[0] += crossed * pairs.seam -
+                    shear_rate_ * (built[1] - 0.5 * (lower_.y + upper_.y)) * (time_ - built_time_);
         moved[1] += crossed * height;
     }
     for (std::size_t d = 0; d < dimension; ++d)

@@ -74,7 +74,7 @@ private:
 
     LinkCells cells_;
     std::vector<Tile> tiles_;
-    Column<double> built_;            // positions at the last build, [grain][dimension]
+    Column<double> built_;             // positions at the last build, [grain][dimension]
     Column<std::int32_t> built_image_; // and images along y, with a seam
     Vec lower_, upper_;
     [[nodiscard]] Vec displacement(const State& state, const simd::PairView& pairs, std::size_t i) const;

@@ -119,15 +119,20 @@ void Walls::list_near_surfaces(const State& state, const double* records) {
             const RecordedGrain g = recorded_grain<3>(records + i * simd::record_fields, nullptr, 0);
             const auto first = static_cast<std::ptrdiff_t>(list.size());
             const double reach = g.radius + skin_;
-            for (std::size_t frame = 0; frame < surfaces_->frames(); ++frame) {
-                const Vec seen = in_frame(frame, g.position);
-                surfaces_->for_near(frame, seen, reach, [&](std::uint32_t e) {
-                    if (scene::distance_from(surfaces_->piece(e), seen) < reach)
-                        list.push_back({static_cast<std::uint32_t>(i), e});
-                });
-            }
+            for (const Vec place : places(g.position))
+                for (std::size_t frame = 0; frame < surfaces_->frames(); ++frame) {
+                    const Vec seen = in_frame(frame, place);
+                    surfaces_->for_near(frame, seen, reach, [&](std::uint32_t e) {
+                        if (scene::distance_from(surfaces_->piece(e), seen) < reach)
+                            list.push_back({static_cast<std::uint32_t>(i), e});
+                    });
+                }
             std::sort(list.begin() + first, list.end(),
                       [](const NearWall& a, const NearWall& b) { return a.element < b.element; });
+            list.erase(
+                std::unique(list.begin() + first, list.end(),
+                            [](const NearWall& a, const NearWall& b) { return a.element == b.element; }),
+                list.end());
         }
     });
     for (const std::vector<NearWall>& list : lists) {

@@ -94,7 +94,8 @@ analysis::Contacts Simulation::contacts() const {
     Walls now = walls_;
     now.move_to(time());
     const ContactMemory pairs = lists_.memory(state_), walls = walls_.memory(state_);
-    analysis::Contacts all = md::contacts(scene_, plan_, state_, now, coefficients_, {pairs, walls}, box(time()));
+    analysis::Contacts all =
+        md::contacts(scene_, plan_, state_, now, coefficients_, {pairs, walls}, box(time()));
     std::vector<std::int32_t> place(state_.size()); // storage index -> index in the snapshot
     std::int32_t next = 0;
     for (const std::size_t i : by_id(state_)) place[i] = next++;

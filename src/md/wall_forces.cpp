@@ -198,13 +198,38 @@ void Walls::update(const State& state, const double* records) {
     rebuild(state, records);
 }
 
+// Where a grain at p may stand while the list lasts, but for the skin: there, or where a periodic side takes
+// it.
+std::vector<Vec> Walls::places(Vec p) const {
+    std::vector<Vec> all{p};
+    constexpr double Vec::*axes[] = {&Vec::x, &Vec::y, &Vec::z};
+    for (std::size_t d = 0; d < 3; ++d) {
+        const double Vec::*x = axes[d];
+        if (!periodic_[d]) continue;
+        const double period = upper_.*x - lower_.*x;
+        const bool low = p.*x < lower_.*x + skin_, high = p.*x >= upper_.*x - skin_;
+        const std::size_t known = all.size();
+        for (std::size_t n = 0; n < known && (low || high); ++n) {
+            Vec image = all[n];
+            image.*(axes[d]) += low ? period : -period;
+            all.push_back(image);
+        }
+    }
+    return all;
+}
+
 void Walls::list_near_elements(const State& state, const double* records) {
-    const ElementGrid grid(*this, lower_, upper_, radius_max_ + skin_, state.size());
+    const ElementGrid grid(*this, lower_, upper_, radius_max_ + 2 * skin_, state.size()); // and outside, too
+    std::vector<std::uint32_t> found;
     for (std::size_t i = 0; i < state.size(); ++i) {
         const double* r = records + i * simd::record_fields;
-        for (const std::uint32_t e : grid.at(r[0], r[1]))
-            if (surface_distance(elements_[e], {r[0], r[1], 0}) < r[5] + skin_)
-                near_.push_back({static_cast<std::uint32_t>(i), e});
+        found.clear();
+        for (const Vec p : places({r[0], r[1], 0}))
+            for (const std::uint32_t e : grid.at(p.x, p.y))
+                if (surface_distance(elements_[e], p) < r[5] + skin_) found.push_back(e);
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        for (const std::uint32_t e : found) near_.push_back({static_cast<std::uint32_t>(i), e});
         if ((i + 1) % tile_size == 0) tile_begin_.push_back(near_.size());
     }
 }

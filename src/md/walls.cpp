@@ -75,7 +75,8 @@ Walls::Walls(const scene::Scene& scene, const Plan& plan, const Needs& needs)
     : motions_(scene.motions), rigid_(scene.motions.size()),
       kernel_(scene.domain.dimension == 3 ? surface_kernel(plan) : wall_kernel(plan)),
       remembered_(plan.memory), fields_(plan.memory), lower_(plan.lower), upper_(plan.upper),
-      skin_(0.5 * needs.radius_min), radius_max_(needs.radius_max), threads_(plan.threads) {
+      periodic_(scene.domain.periodic), skin_(0.5 * needs.radius_min), radius_max_(needs.radius_max),
+      threads_(plan.threads) {
     remembered_.index();
     if (scene.domain.dimension == 3) {
         build_surfaces(scene);

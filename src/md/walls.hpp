@@ -11,6 +11,7 @@
 #include "motion/prescribed.hpp"
 #include "scene/surfaces.hpp"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -156,6 +157,7 @@ private:
                                                 std::size_t end) const;
     [[nodiscard]] std::vector<analysis::WallShape> surface_shapes() const;
 
+    [[nodiscard]] std::vector<Vec> places(Vec p) const;
     void rebuild(const State& state, const double* records);
     void list_near_elements(const State& state, const double* records);
     void add_wall(const scene::Scene& scene, std::size_t index);
@@ -174,6 +176,7 @@ private:
     int fields_ = 0;           // numbers that a contact remembers
     bool stale_ = true;
     Vec lower_, upper_;
+    std::array<bool, 3> periodic_{};
     double skin_ = 0, budget_ = -1, fastest_ = 0, radius_max_ = 0;
     int threads_ = 1;
 };

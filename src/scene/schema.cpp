@@ -84,9 +84,10 @@ const Table<Domain>& domain_table() {
                      "directions in which a grain that leaves comes back on the other side", false,
                      read_periodic, write_periodic, "list of `\"x\"`, `\"y\"`, `\"z\"`"})
             .vector("gravity", &Domain::gravity, Unit::acceleration, "acceleration of gravity")
-            .number("shear_rate", &Domain::shear_rate, Unit::rate, any,
-                    "shear flow without walls (Lees and Edwards): d v_x/d y of the images beyond the periodic y "
-                    "sides; the grains start with this profile added to their velocities, zero in the middle")
+            .number(
+                "shear_rate", &Domain::shear_rate, Unit::rate, any,
+                "shear flow without walls (Lees and Edwards): d v_x/d y of the images beyond the periodic y "
+                "sides; the grains start with this profile added to their velocities, zero in the middle")
             .choice(
                 "outside", &Domain::outside, {"error", "remove"},
                 "a grain whose centre leaves through an open side ends the run, or is removed and counted");
