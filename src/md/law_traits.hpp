@@ -16,8 +16,9 @@ struct ContactScale {
     double damping_ratio = 0;  // of critical
     double collision_time = 0; // s
     double restitution = 1;
-    double overlap = 0;    // m, largest
-    double half_swing = 0; // s: steps resolve this; most laws' collision time, pi/frequency if that is shorter
+    double overlap = 0; // m, largest
+    double half_swing =
+        0; // s: steps resolve this; most laws' collision time, pi/frequency if that is shorter
 };
 
 using Coefficients = laws::PairCoefficients<double>;
@@ -138,14 +139,14 @@ template <> struct LawTraits<laws::CohesiveViscoelastic> : LawTraits<laws::Visco
     }
 
 private:
-    // Without loss: m g^2/2 = (2/5) K xi^{5/2} - 2 pi c R_eff xi^2. As a fixed point it attracts: the slope is
-    // below 0.8.
+    // Without loss: m g^2/2 = (2/5) K xi^{5/2} - 2 pi c R_eff xi^2. As a fixed point it attracts: the slope
+    // is below 0.8.
     static double largest_overlap(const Coefficients& c, double mass, double radius, double speed) {
         const double k = c.elastic * std::sqrt(radius);
         double overlap = 0;
         for (int n = 0; n < 100; ++n) {
-            const double energy = 0.5 * mass * speed * speed +
-                                  2 * std::numbers::pi * c.cohesion * radius * overlap * overlap;
+            const double energy =
+                0.5 * mass * speed * speed + 2 * std::numbers::pi * c.cohesion * radius * overlap * overlap;
             overlap = std::pow(2.5 * energy / k, 0.4);
         }
         return overlap;

@@ -119,22 +119,25 @@ struct Validator {
         material_exists(pair.first, path);
         material_exists(pair.second, path);
         if (pair.stiffness == 0 || pair.young == 0 || (has_springs() && pair.tangential_stiffness == 0))
-            reject("{}: a stiffness of 0 is no contact law; allowed: above 0, or negative for the mixing rule",
-                   path);
+            reject(
+                "{}: a stiffness of 0 is no contact law; allowed: above 0, or negative for the mixing rule",
+                path);
         check_cohesion(pair.cohesion, path);
         const bool overrides = pair.stiffness > 0 || pair.unloading_stiffness >= 0;
         if (scene.md.normal == NormalLaw::walton_braun && overrides &&
             !(pair.stiffness > 0 && pair.unloading_stiffness >= pair.stiffness))
-            reject("{}: stiffness = {} and unloading_stiffness = {}; md.normal = \"walton-braun\" needs both or "
-                   "neither, and unloading_stiffness not below stiffness",
-                   path, pair.stiffness, pair.unloading_stiffness);
+            reject(
+                "{}: stiffness = {} and unloading_stiffness = {}; md.normal = \"walton-braun\" needs both or "
+                "neither, and unloading_stiffness not below stiffness",
+                path, pair.stiffness, pair.unloading_stiffness);
     }
 
     void check_cohesion(double cohesion, const std::string& path) const {
         if (cohesion > 0 && scene.md.normal != NormalLaw::cohesive_viscoelastic)
-            reject("{}.cohesion: {} Pa has no effect with md.normal = \"{}\"; choose \"cohesive-viscoelastic\", "
-                   "or leave it out",
-                   path, cohesion, normal_choices()[static_cast<std::size_t>(scene.md.normal)]);
+            reject(
+                "{}.cohesion: {} Pa has no effect with md.normal = \"{}\"; choose \"cohesive-viscoelastic\", "
+                "or leave it out",
+                path, cohesion, normal_choices()[static_cast<std::size_t>(scene.md.normal)]);
     }
 
     void check_rolling(const Material& m, std::size_t n) const {
