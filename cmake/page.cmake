@@ -1,6 +1,6 @@
 # The files of report.html as one C++ source, written anew whenever one of them changes.
 set(page_folder ${PROJECT_SOURCE_DIR}/src/output/page)
-set(page_scripts format.js plots.js replay-data.js painter.js replay.js report.js)
+set(page_scripts format.js plots.js replay-data.js painter.js space-painter.js replay.js report.js)
 file(READ ${page_folder}/report.html PAGE_HTML)
 file(READ ${page_folder}/report.css PAGE_CSS)
 set(PAGE_SCRIPT "")

@@ -25,7 +25,14 @@ struct PairView {
     const double* coefficients; // laws::PairCoefficients [materials][materials]
     std::int32_t materials;
     double dt, inverse_dt; // s: between two evaluations of a contact that remembers
+    // Lees-Edwards: the image beyond the upper y side stands this far along x, [-1/2, 1/2) of the period, and
+    // moves by so much more per step.
+    bool sheared;
+    double seam, seam_shift; // m
 };
+
+// Which images of a pair are looked at.
+enum class Images { none, periodic, sheared };
 
 // Which partners of a pair get the force.
 enum class Target { both, first, second };
@@ -73,7 +80,7 @@ inline constexpr std::int32_t tile_grains = 1024; // fixed, so that results do n
 struct TileList {
     const std::int32_t *i, *j; // storage indices, begin <= i < end
     std::int32_t count, begin, end;
-    bool images; // a pair may be nearest across a periodic side
+    Images images; // none: no pair is nearest across a periodic side
     // Of laws that remember: the numbers of pair n stand at memory[n * memory_row], and bit n of `touched`
     // says that they are those of a contact that lasts.
     double* memory;
@@ -98,6 +105,7 @@ struct CellView {
     const std::int32_t* start; // cells + 1 entries
     std::int32_t count[3];     // columns, rows, layers
     bool periodic[3];
+    bool sheared; // beyond the y sides all columns are neighbours
 };
 // Grains of `cell` and those around it whose gap to the grain at sorted position `self` is below `skin`:
 // storage indices in the order of the cells. `out` has room for all grains of these cells and eight more.
@@ -122,6 +130,8 @@ struct MotionView {
     double gravity[3], gravity_spin; // 2D: G_phi
     double lower[3], upper[3];
     double period[3]; // 0: open
+    bool sheared;     // Lees-Edwards, as in PairView, at t + dt
+    double seam, seam_shift;
 };
 struct MotionResult {
     double largest_shift2 = 0; // m^2, of the predicted displacements per step

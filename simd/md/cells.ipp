@@ -31,6 +31,10 @@ SANDLANE_INLINE void for_runs(const CellView& cells, const std::int32_t (&at)[3]
                 for (std::int32_t row = runs[1].first[r]; row <= runs[1].last[r]; ++row) {
                     const std::int32_t* start =
                         cells.start + (std::ptrdiff_t{layer} * cells.count[1] + row) * cells.count[0];
+                    if (cells.sheared && (row > at[1] + 1 || row < at[1] - 1)) {
+                        body(start[0], start[cells.count[0]]);
+                        continue;
+                    }
                     for (int c = 0; c < runs[0].count; ++c)
                         body(start[runs[0].first[c]], start[runs[0].last[c] + 1]);
                 }
@@ -50,11 +54,13 @@ template <class Arch, int dimension> struct Near {
         for (int d = 0; d < dimension; ++d) position[d] = R(c.position[d][s]);
     }
     SANDLANE_INLINE unsigned operator()(std::int32_t first, std::int32_t end) const {
+        R x[dimension], shift(0.0);
+        for (int d = 0; d < dimension; ++d) x[d] = load<Arch>(cells.position[d] + first) - position[d];
+        if (view.sheared) cross_seam(view, x[1], x[0], shift);
         R square(0.0);
         for (int d = 0; d < dimension; ++d) {
-            const R x = minimum_image(load<Arch>(cells.position[d] + first) - position[d], view.half[d],
-                                      view.period[d]);
-            square = d == 0 ? x * x : square + x * x;
+            x[d] = minimum_image(x[d], view.half[d], view.period[d]);
+            square = d == 0 ? x[d] * x[d] : square + x[d] * x[d];
         }
         const R sum = load<Arch>(cells.radius + first) + reach;
         unsigned hits = bits(square < sum * sum * margin);
@@ -111,17 +117,17 @@ SweepResult cells_full(const CellView& cells, const PairView& view, PairKernel k
     return result;
 }
 
-template <class Arch, int dimension>
-std::int32_t near_pairs(const PairView& view, const std::int32_t* i, const std::int32_t* j,
-                        std::int32_t count, double skin, std::int32_t* near_i, std::int32_t* near_j,
-                        std::int32_t* position) {
+template <class Arch, int dimension, Images images>
+std::int32_t near_pairs_of(const PairView& view, const std::int32_t* i, const std::int32_t* j,
+                           std::int32_t count, double skin, std::int32_t* near_i, std::int32_t* near_j,
+                           std::int32_t* position) {
     using R = Block<Arch>;
     std::int32_t found = 0;
     for (std::int32_t n = 0; n < count; n += width) {
         const std::int32_t here[width] = {n, n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7};
         R field[record_fields];
         CombinePairs<Arch, dimension>::apply(view.records, i + n, j + n, field);
-        const R square = separate<Arch, dimension>(view, field);
+        const R square = separate<Arch, dimension, images>(view, field);
         const R reach = field[Record<dimension>::radius] + R(skin);
         unsigned hits = bits(square < reach * reach);
         if (count - n < width) hits &= (1u << (count - n)) - 1u;
@@ -131,6 +137,15 @@ std::int32_t near_pairs(const PairView& view, const std::int32_t* i, const std::
         found += __builtin_popcount(hits);
     }
     return found;
+}
+
+template <class Arch, int dimension>
+std::int32_t near_pairs(const PairView& view, const std::int32_t* i, const std::int32_t* j,
+                        std::int32_t count, double skin, std::int32_t* near_i, std::int32_t* near_j,
+                        std::int32_t* position) {
+    if (view.sheared)
+        return near_pairs_of<Arch, dimension, Images::sheared>(view, i, j, count, skin, near_i, near_j, position);
+    return near_pairs_of<Arch, dimension, Images::periodic>(view, i, j, count, skin, near_i, near_j, position);
 }
 
 } // namespace sandlane::simd

@@ -9,20 +9,40 @@
 
 namespace sandlane::simd {
 
+// Lanes that left [lower, upper) below or above.
+struct Left {
+    unsigned below, above;
+    [[nodiscard]] bool any() const { return (below | above) != 0; }
+};
+
 // Wraps one coordinate into [lower, upper) and counts the image. Rounding of the sum may give exactly upper:
 // that is lower.
 template <class Arch>
-SANDLANE_INLINE Block<Arch> wrap(const Block<Arch>& x, double lower, double upper, double period,
-                                 std::int32_t* image) {
+SANDLANE_INLINE Left wrap(Block<Arch>& x, double lower, double upper, double period, std::int32_t* image) {
     using R = Block<Arch>;
     const auto below = x < R(lower);
     const auto above = x >= R(upper);
-    const unsigned low = bits(below), high = bits(above);
-    if ((low | high) == 0) return x;
+    const Left left{bits(below), bits(above)};
+    if (!left.any()) return left;
     for (int l = 0; l < width; ++l)
-        image[l] += static_cast<int>(high >> l & 1u) - static_cast<int>(low >> l & 1u);
+        image[l] += static_cast<int>(left.above >> l & 1u) - static_cast<int>(left.below >> l & 1u);
     const R moved = select(below, x + R(period), select(above, x - R(period), x));
-    return select(moved >= R(upper), select(below, R(lower), moved), moved);
+    x = select(moved >= R(upper), select(below, R(lower), moved), moved);
+    return left;
+}
+
+// Who crosses a Lees-Edwards seam goes on at the place and with the velocity of the image.
+template <class Arch>
+SANDLANE_INLINE void cross_seam(const MotionView& view, const Left& left, Block<Arch>& x, Block<Arch>& shift) {
+    double places[width], shifts[width];
+    store(places, x);
+    store(shifts, shift);
+    for (int l = 0; l < width; ++l) {
+        if ((left.above >> l & 1u) != 0) places[l] -= view.seam, shifts[l] -= view.seam_shift;
+        if ((left.below >> l & 1u) != 0) places[l] += view.seam, shifts[l] += view.seam_shift;
+    }
+    x = load<Arch>(places);
+    shift = load<Arch>(shifts);
 }
 
 // One degree of freedom of eight particles: `value` and `shift` are k = 0 and 1, the rest stands in `gear`.
@@ -63,9 +83,12 @@ SANDLANE_INLINE void settle(const MotionView& view, std::int64_t first, unsigned
     using R = Block<Arch>;
     unsigned inside = 0xffu;
     R shift2(0.0);
+    for (int d = dimension - 1; d >= 0; --d) { // y before x, which a seam may change
+        if (!(view.period[d] > 0)) continue;
+        const Left left = wrap(record[d], view.lower[d], view.upper[d], view.period[d], view.image[d] + first);
+        if (d == 1 && left.any() && view.sheared) cross_seam(view, left, record[0], record[dimension]);
+    }
     for (int d = 0; d < dimension; ++d) {
-        if (view.period[d] > 0)
-            record[d] = wrap(record[d], view.lower[d], view.upper[d], view.period[d], view.image[d] + first);
         inside &= bits((record[d] >= R(view.lower[d])) & (record[d] < R(view.upper[d])));
         const R shift = record[dimension + d];
         shift2 = d == 0 ? shift * shift : shift2 + shift * shift;

@@ -20,11 +20,24 @@ SANDLANE_INLINE Block<Arch> minimum_image(const Block<Arch>& d, double half, dou
     return select(low > Block<Arch>(half), low - Block<Arch>(period), low);
 }
 
+// The image across a Lees-Edwards seam stands and moves along x.
+template <class Arch>
+SANDLANE_INLINE void cross_seam(const PairView& view, const Block<Arch>& dy, Block<Arch>& dx, Block<Arch>& shift) {
+    using R = Block<Arch>;
+    const R zero(0.0), seam(view.seam), moves(view.seam_shift);
+    const auto above = dy > R(view.half[1]), below = dy < R(-view.half[1]);
+    dx = dx - select(above, seam, zero) + select(below, seam, zero);
+    shift = shift - select(above, moves, zero) + select(below, moves, zero);
+}
+
 // The first fields of combined records become the vector to the nearest image; returns its square.
-template <class Arch, int dimension, bool images = true>
+template <class Arch, int dimension, Images images>
 SANDLANE_INLINE Block<Arch> separate(const PairView& view, Block<Arch> (&field)[record_fields]) {
-    if constexpr (images)
-        for (int d = 0; d < dimension; ++d) field[d] = minimum_image(field[d], view.half[d], view.period[d]);
+    if constexpr (images == Images::sheared)
+        cross_seam(view, field[1], field[0], field[Record<dimension>::velocity]);
+    if constexpr (images != Images::none)
+        for (int d = 0; d < dimension; ++d)
+            field[d] = minimum_image(field[d], view.half[d], view.period[d]);
     const Block<Arch> square = field[0] * field[0] + field[1] * field[1];
     if constexpr (dimension == 3) return square + field[2] * field[2];
     return square;
@@ -159,7 +172,7 @@ double pair_forces(const PairView& view, const std::int32_t* i, const std::int32
             const std::int32_t *const a = i + first + n, *const b = j + first + n;
             R field[record_fields];
             CombinePairs<Arch, dimension>::apply(view.records, a, b, field);
-            (void)separate<Arch, dimension>(view, field);
+            (void)separate<Arch, dimension, Images::periodic>(view, field);
             if constexpr (many_materials) coefficients = gather_coefficients<Arch>(view, a, b);
             const auto f = laws::pair_force<Normal, Tangential, couples>(
                 contact_state<Arch, dimension, Tangential, couples>(view, a, b, field), coefficients);

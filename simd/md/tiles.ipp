@@ -43,7 +43,7 @@ SANDLANE_INLINE void prefetch_grain(const PairView& view, std::int32_t j) {
     if (dimension == 3 && spin) __builtin_prefetch(view.spins + std::ptrdiff_t{j} * spin_fields);
 }
 
-template <class Arch, int dimension, bool images, class Normal, class Tangential, bool couples, class Packed>
+template <class Arch, int dimension, Images images, class Normal, class Tangential, bool couples, class Packed>
 SANDLANE_INLINE void pack_contacts(const PairView& view, const TileList& list, std::int32_t first, int size,
                                    Packed& c) {
     using R = Block<Arch>;
@@ -136,10 +136,12 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
     for (std::int32_t first = 0; first < list.count; first += tile_chunk) {
         const int size = list.count - first < tile_chunk ? list.count - first : tile_chunk;
         double* const remembered = list.memory + std::ptrdiff_t{first} * doubles;
-        if (list.images)
-            pack_contacts<Arch, dimension, true, Normal, Tangential, couples>(view, list, first, size, c);
+        if (list.images == Images::none)
+            pack_contacts<Arch, dimension, Images::none, Normal, Tangential, couples>(view, list, first, size, c);
+        else if (list.images == Images::periodic)
+            pack_contacts<Arch, dimension, Images::periodic, Normal, Tangential, couples>(view, list, first, size, c);
         else
-            pack_contacts<Arch, dimension, false, Normal, Tangential, couples>(view, list, first, size, c);
+            pack_contacts<Arch, dimension, Images::sheared, Normal, Tangential, couples>(view, list, first, size, c);
         pad_contacts<dimension, Normal, Tangential, couples>(c);
         for (int n = 0; n < c.count; n += width) {
             if constexpr (many_materials) coefficients = gather_coefficients<Arch>(view, c.i + n, c.j + n);

@@ -55,7 +55,7 @@ struct Snapshot {
 };
 
 // Of a pressure or stress: in the plane a force per length.
-[[nodiscard]] inline std::string pressure_unit(std::int64_t dimension) {
+[[nodiscard]] constexpr const char* pressure_unit(std::int64_t dimension) {
     return dimension == 3 ? "Pa" : "N/m";
 }
 

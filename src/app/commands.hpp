@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace sandlane::app {
 
@@ -38,8 +39,9 @@ struct CompareOptions {
 struct RenderOptions {
     std::filesystem::path from; // checkpoint or scene
     std::filesystem::path png;
-    std::string colour; // empty: what the scene says
-    int width = 0;      // pixels; 0: what the scene says
+    std::string colour;       // empty: what the scene says
+    int width = 0;            // pixels; 0: what the scene says
+    std::vector<double> view; // 3D: direction to the viewer; empty: what the scene says
 };
 
 struct ConvertOptions {

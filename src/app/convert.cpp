@@ -74,11 +74,16 @@ void set_material(scene::BookRecord& r, const scene::Material& m) {
 
 // The format knows one normal law, and walls made of grains only.
 void check_suits_book(const scene::Scene& s, const fs::path& from) {
+    if (s.domain.dimension != 2)
+        fail(Exit::invalid_input,
+             "convert: {}: is three-dimensional, and the book's format knows two dimensions only. Convert to "
+             "a scene (.toml), or run it with output.trajectory = [\"dump\"], [\"xyz\"] or [\"vtp\"].",
+             from.string());
     if (s.md.normal != scene::NormalLaw::viscoelastic)
         fail(Exit::invalid_input,
-             "convert: {}: md.normal = \"linear-dashpot\" has no place in the book's format, which knows "
-             "viscoelastic grains only",
-             from.string());
+             "convert: {}: md.normal = \"{}\" has no place in the book's format, which knows viscoelastic "
+             "grains only",
+             from.string(), scene::normal_choices()[static_cast<std::size_t>(s.md.normal)]);
     const auto lost = std::count_if(s.walls.begin(), s.walls.end(),
                                     [](const scene::Wall& w) { return w.kind != scene::WallKind::grains; });
     if (lost > 0)
@@ -149,6 +154,14 @@ std::string book_text(const ConvertOptions& options) {
     return options.snapshot ? scene::write_book_frame(book) : scene::write_book(book);
 }
 
+output::Camera camera_of(scene::Scene scene, const RenderOptions& options) {
+    if (scene.domain.dimension != 3)
+        fail(Exit::invalid_input, "render: {}: --view goes with three-dimensional scenes only",
+             options.from.string());
+    scene.output.view = {options.view[0], options.view[1], options.view[2]};
+    return output::camera_of(scene);
+}
+
 } // namespace
 
 int convert(const ConvertOptions& options) {
@@ -173,14 +186,12 @@ int convert(const ConvertOptions& options) {
 
 int render(const RenderOptions& options) {
     const md::Simulation simulation = load_state(options.from);
-    const scene::Output& wanted = simulation.scene().output;
     const scene::Choices& colours = scene::colour_choices();
     const auto colour = std::find(colours.begin(), colours.end(), options.colour);
-    output::PictureStyle style;
-    style.width = options.width > 0 ? options.width : static_cast<int>(wanted.picture_width);
-    style.colour =
-        colour == colours.end() ? wanted.colour : static_cast<scene::Colour>(colour - colours.begin());
-    style.body = simulation.scene().md.body;
+    output::PictureStyle style = output::picture_style(simulation.scene());
+    if (!options.view.empty()) style.camera = camera_of(simulation.scene(), options);
+    if (options.width > 0) style.width = options.width;
+    if (colour != colours.end()) style.colour = static_cast<scene::Colour>(colour - colours.begin());
     output::write_picture(options.png, simulation.snapshot(), style);
     return 0;
 }

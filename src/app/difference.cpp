@@ -40,17 +40,60 @@ Difference difference(std::string quantity, std::string unit, const std::vector<
     return d;
 }
 
-std::vector<Difference> compare_snapshots(const analysis::Snapshot& a, const analysis::Snapshot& b) {
-    if (a.id != b.id)
+namespace {
+
+using analysis::Snapshot;
+
+struct Column {
+    const char *name, *unit;
+    std::vector<double> Snapshot::*values;
+};
+constexpr Column plane_columns[] = {{"x", "m", &Snapshot::x},           {"y", "m", &Snapshot::y},
+                                    {"angle", "rad", &Snapshot::angle}, {"vx", "m/s", &Snapshot::vx},
+                                    {"vy", "m/s", &Snapshot::vy},       {"omega", "rad/s", &Snapshot::omega}};
+constexpr Column space_columns[] = {{"x", "m", &Snapshot::x},
+                                    {"y", "m", &Snapshot::y},
+                                    {"z", "m", &Snapshot::z},
+                                    {"vx", "m/s", &Snapshot::vx},
+                                    {"vy", "m/s", &Snapshot::vy},
+                                    {"vz", "m/s", &Snapshot::vz},
+                                    {"omega_x", "rad/s", &Snapshot::omega_x},
+                                    {"omega_y", "rad/s", &Snapshot::omega_y},
+                                    {"omega_z", "rad/s", &Snapshot::omega}};
+
+void add_orientations(const Snapshot& a, const Snapshot& b, std::vector<Difference>& to) {
+    if (a.orientation.empty() || b.orientation.empty()) return; // not followed
+    struct Part {
+        const char* name;
+        double Quaternion::*value;
+    };
+    constexpr Part parts[] = {{"orientation_w", &Quaternion::w},
+                              {"orientation_x", &Quaternion::x},
+                              {"orientation_y", &Quaternion::y},
+                              {"orientation_z", &Quaternion::z}};
+    for (const Part& part : parts) {
+        std::vector<double> first, second;
+        for (const Quaternion& q : a.orientation) first.push_back(q.*part.value);
+        for (const Quaternion& q : b.orientation) second.push_back(q.*part.value);
+        to.push_back(difference(part.name, "1", a.id, first, second));
+    }
+}
+
+} // namespace
+
+std::vector<Difference> compare_snapshots(const Snapshot& a, const Snapshot& b) {
+    if (a.id != b.id || a.dimension != b.dimension)
         return {{"grains", "", std::numeric_limits<double>::infinity(),
                  std::numeric_limits<double>::infinity(), 0, -1}};
-    return {difference("x", "m", a.id, a.x, b.x),
-            difference("y", "m", a.id, a.y, b.y),
-            difference("angle", "rad", a.id, a.angle, b.angle),
-            difference("vx", "m/s", a.id, a.vx, b.vx),
-            difference("vy", "m/s", a.id, a.vy, b.vy),
-            difference("omega", "rad/s", a.id, a.omega, b.omega),
-            difference("pressure", "Pa", a.id, a.pressure, b.pressure)};
+    std::vector<Difference> found;
+    const std::span<const Column> columns =
+        a.dimension == 3 ? std::span<const Column>(space_columns) : plane_columns;
+    for (const Column& c : columns)
+        found.push_back(difference(c.name, c.unit, a.id, a.*c.values, b.*c.values));
+    add_orientations(a, b, found);
+    found.push_back(
+        difference("pressure", analysis::pressure_unit(a.dimension), a.id, a.pressure, b.pressure));
+    return found;
 }
 
 std::vector<Difference> compare_forces(md::Simulation& simulation, simd::Isa first, simd::Isa second) {

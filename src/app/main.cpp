@@ -105,6 +105,10 @@ void add_conversion(CLI::App& cli, Options& o, Job& job) {
         ->check(CLI::IsMember(std::vector<std::string>(colours.begin(), colours.end())));
     render->add_option("--width", o.render.width, "Pixels (default: as in the scene)")
         ->check(CLI::Range(64, 16384));
+    render
+        ->add_option("--view", o.render.view, "3D: direction to the viewer, x,y,z (default: as in the scene)")
+        ->delimiter(',')
+        ->expected(3);
     render->callback([&] { job = [&] { return app::render(o.render); }; });
 
     CLI::App* convert = cli.add_subcommand(

@@ -10,9 +10,11 @@ namespace sandlane::app {
 
 namespace {
 
+// only: 2 or 3 for scenes of this dimension, 0 for all.
 struct Entry {
     const char *name, *unit;
     double (*value)(const md::Simulation&, const md::Observables&);
+    int only = 0;
 };
 
 using Sim = const md::Simulation&;
@@ -32,6 +34,7 @@ constexpr Entry entries[] = {
     {"dissipated_energy", "J", [](Sim s, Obs o) { return s.dissipated(o); }},
     {"momentum_x", "kg m/s", [](Sim, Obs o) { return o.momentum.x; }},
     {"momentum_y", "kg m/s", [](Sim, Obs o) { return o.momentum.y; }},
+    {"momentum_z", "kg m/s", [](Sim, Obs o) { return o.momentum.z; }, 3},
     {"contacts", "1", [](Sim, Obs o) { return static_cast<double>(o.contacts); }},
     {"wall_contacts", "1", [](Sim, Obs o) { return static_cast<double>(o.wall_contacts); }},
     {"largest_overlap", "R_min", [](Sim, Obs o) { return o.largest_overlap; }},
@@ -42,11 +45,16 @@ constexpr Entry entries[] = {
 struct WallEntry {
     const char *name, *unit;
     double (*value)(const md::WallLoad&);
+    int only = 0;
 };
 constexpr WallEntry wall_entries[] = {
     {"force_x", "N", [](const md::WallLoad& w) { return w.force.x; }},
     {"force_y", "N", [](const md::WallLoad& w) { return w.force.y; }},
-    {"torque", "N m", [](const md::WallLoad& w) { return w.torque.z; }},
+    {"force_z", "N", [](const md::WallLoad& w) { return w.force.z; }, 3},
+    {"torque", "N m", [](const md::WallLoad& w) { return w.torque.z; }, 2},
+    {"torque_x", "N m", [](const md::WallLoad& w) { return w.torque.x; }, 3},
+    {"torque_y", "N m", [](const md::WallLoad& w) { return w.torque.y; }, 3},
+    {"torque_z", "N m", [](const md::WallLoad& w) { return w.torque.z; }, 3},
     {"power", "W", [](const md::WallLoad& w) { return w.power; }},
 };
 
@@ -61,22 +69,32 @@ std::string wall_name(const scene::Scene& scene, std::size_t wall) {
     return plain && same == 1 ? name : fmt::format("wall_{}", wall);
 }
 
+// Calls body(entry) for those of scenes of this dimension.
+template <class Entries, class Body>
+void for_entries(const Entries& table, std::int64_t dimension, const Body& body) {
+    for (const auto& entry : table)
+        if (entry.only == 0 || entry.only == dimension) body(entry);
+}
+
 } // namespace
 
 std::vector<analysis::LogColumn> log_columns(const scene::Scene& scene) {
+    const std::int64_t dimension = scene.domain.dimension;
     std::vector<analysis::LogColumn> columns;
-    for (const Entry& entry : entries) columns.push_back({entry.name, entry.unit});
+    for_entries(entries, dimension, [&](const Entry& e) { columns.push_back({e.name, e.unit}); });
     for (std::size_t wall = 0; wall < scene.walls.size(); ++wall)
-        for (const WallEntry& entry : wall_entries)
-            columns.push_back({fmt::format("{}_{}", wall_name(scene, wall), entry.name), entry.unit});
+        for_entries(wall_entries, dimension, [&](const WallEntry& e) {
+            columns.push_back({fmt::format("{}_{}", wall_name(scene, wall), e.name), e.unit});
+        });
     return columns;
 }
 
 std::vector<double> log_row(const md::Simulation& simulation, const md::Observables& observed) {
+    const std::int64_t dimension = simulation.scene().domain.dimension;
     std::vector<double> row;
-    for (const Entry& entry : entries) row.push_back(entry.value(simulation, observed));
+    for_entries(entries, dimension, [&](const Entry& e) { row.push_back(e.value(simulation, observed)); });
     for (const md::WallLoad& load : observed.walls)
-        for (const WallEntry& entry : wall_entries) row.push_back(entry.value(load));
+        for_entries(wall_entries, dimension, [&](const WallEntry& e) { row.push_back(e.value(load)); });
     return row;
 }
 

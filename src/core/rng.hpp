@@ -16,6 +16,7 @@ enum class Stream : std::uint32_t {
     velocity = 3,
     jitter = 4,
     pour = 5,
+    factory = 6,
 };
 
 using PhiloxCounter = std::array<std::uint32_t, 4>;

@@ -1,5 +1,5 @@
-// What happens between time steps: storage order, insertion, grains that leave, the way from the lattice to
-// link cells, and the guard on overlaps.
+// What happens between time steps: storage order, the way from the lattice to link cells, and the guard on
+// overlaps.
 #include "md/simulation.hpp"
 
 #include "core/error.hpp"
@@ -65,79 +65,6 @@ void Simulation::bin() {
     lattice_.enter(state_, 0, state_.size());
 }
 
-bool Simulation::has_room(const scene::GrainState& grain) const {
-    const scene::Box box(scene_.domain);
-    for (std::size_t i = 0; i < state_.size(); ++i) {
-        const Vec d = box.separation(grain.position, state_.position(i));
-        const double reach = state_.radius(i) + grain.radius;
-        if (dot(d, d) < reach * reach) return false;
-    }
-    bool room = true;
-    walls_.for_touching(grain.position, grain.radius, [&](std::size_t, const WallContact&) { room = false; });
-    return room;
-}
-
-void Simulation::insert_due() {
-    const std::int64_t retry = 100; // steps until a grain that found no room tries again
-    bool inserted = false;
-    while (next_waiting_ < waiting_.size() && insertion_step(waiting_[next_waiting_]) <= step_) {
-        scene::GrainState grain = waiting_[next_waiting_];
-        if (!has_room(grain)) {
-            ++delayed_;
-            waiting_[next_waiting_].insert_at = static_cast<double>(step_ + retry) * plan_.dt;
-            const auto from = waiting_.begin() + static_cast<std::ptrdiff_t>(next_waiting_);
-            std::stable_sort(from, waiting_.end(),
-                             [](const auto& a, const auto& b) { return a.insert_at < b.insert_at; });
-            continue;
-        }
-        state_.append(grain, plan_.dt);
-        const std::size_t i = state_.size() - 1;
-        const double no_force[8] = {};
-        state_.set_accelerations(i, no_force, motion_view());
-        added_energy_ += grain_energy(scene_, plan_, state_, i);
-        ++next_waiting_;
-        inserted = true;
-    }
-    if (inserted) sort_by_place();
-}
-
-bool Simulation::is_inside(Vec p) const {
-    const Vec low = plan_.lower, high = plan_.upper;
-    return p.x >= low.x && p.x < high.x && p.y >= low.y && p.y < high.y &&
-           (plan_.dimension == 2 || (p.z >= low.z && p.z < high.z));
-}
-
-// Grains whose predicted centre left an open side are removed and counted, or end the run.
-void Simulation::handle_outside() {
-    std::vector<std::uint32_t> kept;
-    for (std::size_t i = 0; i < state_.size(); ++i) {
-        const Vec p = state_.position(i);
-        if (is_inside(p)) {
-            kept.push_back(static_cast<std::uint32_t>(i));
-            continue;
-        }
-        const std::string place = plan_.dimension == 2
-                                      ? fmt::format("({:.6g}, {:.6g})", p.x, p.y)
-                                      : fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
-        if (!std::isfinite(norm(p)) || !std::isfinite(norm(state_.shift(i))))
-            fail(Exit::unstable,
-                 "step {}, t = {:.6g} s: grain {} has position {}: the run is unstable; lower md.dt", step_,
-                 time(), state_.id[i], place);
-        if (scene_.domain.outside == scene::Outside::error)
-            fail(Exit::unstable,
-                 "step {}, t = {:.6g} s: grain {} left the domain at {}. Enlarge the domain, add walls, or "
-                 "set "
-                 "domain.outside = \"remove\".",
-                 step_, time(), state_.id[i], place);
-        added_energy_ -= grain_energy(scene_, plan_, state_, i);
-        ++removed_;
-    }
-    walls_.invalidate(state_);
-    lists_.invalidate(state_);
-    state_.reorder(kept);
-    bin();
-}
-
 void Simulation::use_link_cells() {
     plan_.neighbours = NeighbourMethod::link_cells;
     prepare_method();
@@ -152,7 +79,7 @@ void Simulation::fail_overlap() const {
     const auto centre = [&](std::size_t i) { return state_.position(i); };
     double worst = -infinity, distance = 0;
     std::size_t first = 0, second = 0;
-    for_near_pairs(scene_, state_, centre, [&](std::size_t i, std::size_t j, Vec d) {
+    for_near_pairs(box(static_cast<double>(force_step_) * plan_.dt), state_, centre, [&](std::size_t i, std::size_t j, Vec d) {
         const double overlap = state_.radius(i) + state_.radius(j) - norm(d);
         if (overlap <= worst) return;
         worst = overlap;

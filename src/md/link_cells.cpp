@@ -20,7 +20,7 @@ std::int32_t cell_count(double length, double edge, bool periodic, double most) 
 
 LinkCells::LinkCells(const scene::Scene& scene, const Plan& plan, double radius_max, bool brute_force,
                      double skin)
-    : dimension_(plan.dimension), periodic_(scene.domain.periodic) {
+    : dimension_(plan.dimension), periodic_(scene.domain.periodic), sheared_(scene.domain.shear_rate != 0) {
     const Vec size = plan.upper - plan.lower;
     const double lower[] = {plan.lower.x, plan.lower.y, plan.lower.z}, length[] = {size.x, size.y, size.z};
     const double edge =
@@ -97,6 +97,7 @@ simd::CellView LinkCells::view() const {
         view.count[d] = count_[d];
         view.periodic[d] = periodic_[d];
     }
+    view.sheared = sheared_;
     view.radius = radius_.data();
     view.owner = owner_.data();
     view.start = start_.data();

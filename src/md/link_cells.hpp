@@ -41,6 +41,7 @@ private:
     std::array<std::int32_t, 3> count_{1, 1, 1}; // columns, rows, layers
     std::array<double, 3> lower_{}, edge_{1, 1, 1};
     std::array<bool, 3> periodic_{};
+    bool sheared_ = false;
 };
 
 } // namespace sandlane::md

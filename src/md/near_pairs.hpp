@@ -9,11 +9,9 @@ namespace sandlane::md {
 // Calls body(i, j, d) once for every pair of grains that may touch, j stored before i, d = r_j - r_i (minimum
 // image). position(i): the centre of grain i.
 template <class Position, class Body>
-void for_near_pairs(const scene::Scene& scene, const State& state, const Position& position,
-                    const Body& body) {
+void for_near_pairs(const scene::Box& box, const State& state, const Position& position, const Body& body) {
     if (state.size() < 2) return;
     const double largest = state.largest_radius();
-    const scene::Box box(scene.domain);
     scene::CellGrid grid(box, 2 * largest, state.size());
     for (std::size_t i = 0; i < state.size(); ++i) {
         const Vec p = position(i);

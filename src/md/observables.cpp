@@ -82,8 +82,9 @@ struct Found {
 class Search {
 public:
     Search(const scene::Scene& scene, const Plan& plan, const State& state, const Walls& walls,
-           const std::vector<double>& coefficients, const ContactMemories& memories)
+           const std::vector<double>& coefficients, const ContactMemories& memories, const scene::Box& box)
         : scene_(scene), state_(state), walls_(walls), coefficients_(coefficients), memories_(memories),
+          box_(box),
           kernel_(contact_kernel(plan)), rate_(1 / plan.dt) {}
 
     template <class Body> void for_contacts(const Body& body) const {
@@ -98,10 +99,11 @@ private:
     template <class Body> void for_pairs(const Body& body) const {
         const auto position = [&](std::size_t i) { return state_.position(i); };
         double memory[laws::most_memory];
-        for_near_pairs(scene_, state_, position, [&](std::size_t i, std::size_t j, Vec d) {
+        for_near_pairs(box_, state_, position, [&](std::size_t i, std::size_t j, Vec d) {
             const double reach = state_.radius(i) + state_.radius(j);
             if (!(dot(d, d) < reach * reach)) return;
-            const Vec dv = rate_ * (state_.shift(j) - state_.shift(i));
+            Vec dv = rate_ * (state_.shift(j) - state_.shift(i));
+            dv.x -= box_.crossings(state_.position(i), state_.position(j)) * scene_.domain.shear_rate * box_.size().y;
             const double ri = state_.radius(i), rj = state_.radius(j);
             const Relative s{vector(d),
                              vector(dv),
@@ -161,6 +163,7 @@ private:
     const Walls& walls_;
     const std::vector<double>& coefficients_;
     const ContactMemories& memories_;
+    const scene::Box& box_;
     ContactKernel kernel_;
     double rate_; // 1/s, from displacements per step to velocities
 };
@@ -210,7 +213,7 @@ void add_wall_load(const Walls& walls, const Found& c, WallLoad& load) {
 } // namespace
 
 Observables observe(const scene::Scene& scene, const Plan& plan, const State& state, const Walls& walls,
-                    const std::vector<double>& coefficients, const ContactMemories& memories) {
+                    const std::vector<double>& coefficients, const ContactMemories& memories, const scene::Box& box) {
     Observables o;
     o.grains = static_cast<std::int64_t>(state.size());
     o.pressure.assign(state.size(), 0.0);
@@ -222,7 +225,7 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
         const double r = state.radius(i), area = 2 * std::numbers::pi * r;
         o.pressure[i] += inward / (plan.dimension == 3 ? 2 * r * area : area);
     };
-    Search(scene, plan, state, walls, coefficients, memories).for_contacts([&](const Found& c) {
+    Search(scene, plan, state, walls, coefficients, memories, box).for_contacts([&](const Found& c) {
         const double inward = -dot(c.force.force, c.normal);
         o.elastic += c.force.energy;
         press(c.first, inward);
@@ -242,9 +245,9 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
 
 analysis::Contacts contacts(const scene::Scene& scene, const Plan& plan, const State& state,
                             const Walls& walls, const std::vector<double>& coefficients,
-                            const ContactMemories& memories) {
+                            const ContactMemories& memories, const scene::Box& box) {
     analysis::Contacts all;
-    Search(scene, plan, state, walls, coefficients, memories).for_contacts([&](const Found& c) {
+    Search(scene, plan, state, walls, coefficients, memories, box).for_contacts([&](const Found& c) {
         analysis::Contact& to = all.emplace_back();
         to.i = static_cast<std::int32_t>(c.first);
         to.normal = c.normal;

@@ -6,6 +6,7 @@
 #include "md/plan.hpp"
 #include "md/state.hpp"
 #include "md/walls.hpp"
+#include "scene/cell_grid.hpp"
 #include "scene/scene.hpp"
 
 #include <cstdint>
@@ -41,12 +42,12 @@ struct ContactMemories {
 
 [[nodiscard]] Observables observe(const scene::Scene& scene, const Plan& plan, const State& state,
                                   const Walls& walls, const std::vector<double>& coefficients,
-                                  const ContactMemories& memories);
+                                  const ContactMemories& memories, const scene::Box& box);
 
 // All contacts, with storage indices in place of those of a snapshot and in no particular order.
 [[nodiscard]] analysis::Contacts contacts(const scene::Scene& scene, const Plan& plan, const State& state,
                                           const Walls& walls, const std::vector<double>& coefficients,
-                                          const ContactMemories& memories);
+                                          const ContactMemories& memories, const scene::Box& box);
 
 // Kinetic, rotational and potential energy of one grain, J.
 [[nodiscard]] double grain_energy(const scene::Scene& scene, const Plan& plan, const State& state,

@@ -16,12 +16,6 @@ constexpr double outer_skin[] = {0.4, 0.2}, near_skin[] = {0.04, 0.03};
 // Rounding of positions and distances never exceeds this part of a skin.
 constexpr double safety = 1 - 1e-9;
 
-double nearest(double d, double half, double period) {
-    if (d < -half) d += period;
-    if (d > half) d -= period;
-    return d;
-}
-
 double in_units(const double (&skins)[2], const Plan& plan, const Needs& needs) {
     return skins[plan.dimension - 2] * needs.radius_min;
 }
@@ -31,7 +25,8 @@ double in_units(const double (&skins)[2], const Plan& plan, const Needs& needs) 
 PairLists::PairLists(const scene::Scene& scene, const Plan& plan, const Needs& needs)
     : cells_(scene, plan, needs.radius_max, false, in_units(outer_skin, plan, needs)), lower_(plan.lower),
       upper_(plan.upper), skin_(in_units(outer_skin, plan, needs)),
-      near_skin_(in_units(near_skin, plan, needs)), fields_(plan.memory),
+      near_skin_(in_units(near_skin, plan, needs)),
+      shear_rate_(scene.domain.shear_rate), radius_max_(needs.radius_max), fields_(plan.memory),
       remembered_(plan.memory, plan.odd_memory) {
     remembered_.index();
 }
@@ -69,7 +64,7 @@ ContactMemory PairLists::memory(const State& state) const {
 }
 
 std::size_t PairLists::bytes() const {
-    std::size_t total = cells_.bytes() + built_.bytes();
+    std::size_t total = cells_.bytes() + built_.bytes() + built_image_.bytes();
     for (const Tile& t : tiles_)
         total += sizeof(std::int32_t) * (t.i.capacity() + t.j.capacity() + t.near_i.capacity() +
                                          t.near_j.capacity() + t.position.capacity()) +
@@ -100,26 +95,37 @@ void PairLists::update(const State& state, const simd::PairView& pairs, const si
     refresh(state, pairs, kernels, threads, rebuild);
 }
 
-// Two grains that were a skin apart can have met when both moved by half of it. The near list adds its own
-// skin.
-bool PairLists::outer_valid(const State& state, const simd::PairView& pairs, int threads) {
+// Of a grain since the last build; with a seam beyond what the shear flow through its place did.
+Vec PairLists::displacement(const State& state, const simd::PairView& pairs, std::size_t i) const {
     const auto dimension = static_cast<std::size_t>(state.dimension);
+    const double *now = state.record_of(i), *built = built_.data() + i * dimension;
+    double moved[3] = {};
+    for (std::size_t d = 0; d < dimension; ++d) moved[d] = now[d] - built[d];
+    if (shear_rate_ != 0) {
+        const double height = pairs.period[1], crossed = state.image[1][i] - built_image_[i];
+        moved[0] += crossed * pairs.seam - shear_rate_ * (built[1] - 0.5 * (lower_.y + upper_.y)) * (time_ - built_time_);
+        moved[1] += crossed * height;
+    }
+    for (std::size_t d = 0; d < dimension; ++d)
+        if (pairs.period[d] > 0) moved[d] -= pairs.period[d] * std::nearbyint(moved[d] / pairs.period[d]);
+    return {moved[0], moved[1], moved[2]};
+}
+
+// Two grains that were a skin apart can have met when both moved by half of it. The near list adds its own
+// skin. A shear flow moves one against the other by its rate and their distance.
+bool PairLists::outer_valid(const State& state, const simd::PairView& pairs, int threads) {
     for_tiles(tiles_.size(), threads, [&](std::size_t index) {
         double largest = 0;
         for (std::size_t i = index * tile_size; i < std::min(state.size(), (index + 1) * tile_size); ++i) {
-            double square = 0;
-            for (std::size_t d = 0; d < dimension; ++d) {
-                const double x = nearest(state.record_of(i)[d] - built_[i * dimension + d], pairs.half[d],
-                                         pairs.period[d]);
-                square += x * x;
-            }
-            largest = std::max(largest, square);
+            const Vec moved = displacement(state, pairs, i);
+            largest = std::max(largest, dot(moved, moved));
         }
         tiles_[index].largest_square = largest;
     });
     double largest = 0;
     for (const Tile& t : tiles_) largest = std::max(largest, t.largest_square);
-    return std::sqrt(largest) <= 0.5 * safety * (skin_ - near_skin_);
+    const double sheared = std::abs(shear_rate_) * (time_ - built_time_) * (2 * radius_max_ + skin_);
+    return 2 * std::sqrt(largest) + sheared <= safety * (skin_ - near_skin_);
 }
 
 void PairLists::build(const State& state, const simd::PairView& pairs, const simd::DimensionKernels& kernels,
@@ -128,6 +134,8 @@ void PairLists::build(const State& state, const simd::PairView& pairs, const sim
     stale_ = false;
     tiles_.resize(state.tiles());
     built_.resize(state.size() * static_cast<std::size_t>(state.dimension));
+    if (shear_rate_ != 0) built_image_ = state.image[1];
+    built_time_ = time_;
     cells_.build(state, kernels.bin, threads);
     for_tiles_dynamic(tiles_.size(), threads,
                       [&](std::size_t index) { build_tile(index, state, pairs, kernels); });
@@ -155,7 +163,8 @@ void PairLists::build_tile(std::size_t index, const State& state, const simd::Pa
         t.i.resize(t.j.size(), i);
     }
     t.count = static_cast<std::int32_t>(t.i.size());
-    t.images = may_cross(t, state, pairs);
+    const simd::Images images = pairs.sheared ? simd::Images::sheared : simd::Images::periodic;
+    t.images = may_cross(t, state, pairs) ? images : simd::Images::none;
     for (std::vector<std::int32_t>* list : {&t.i, &t.j}) list->resize(list->size() + block_width, begin);
 }
 

@@ -19,6 +19,8 @@ public:
     PairLists() = default;
     PairLists(const scene::Scene& scene, const Plan& plan, const Needs& needs);
 
+    // With Lees-Edwards seams also the time of the records, s, before update().
+    void set_time(double time) { time_ = time; }
     // Grains moved by at most `distance` [m] since the last call.
     void account(double distance) { near_budget_ -= distance; }
     // Before the storage order changes.
@@ -53,7 +55,7 @@ private:
         std::vector<std::int32_t> position; // of near pairs in the outer list
         Memory memory;
         std::int32_t count = 0, near_count = 0;
-        bool images = false;
+        simd::Images images = simd::Images::none;
         double largest_square = 0; // of the displacements since the last build
     };
 
@@ -72,9 +74,13 @@ private:
 
     LinkCells cells_;
     std::vector<Tile> tiles_;
-    Column<double> built_; // positions at the last build, [grain][dimension]
+    Column<double> built_;            // positions at the last build, [grain][dimension]
+    Column<std::int32_t> built_image_; // and images along y, with a seam
     Vec lower_, upper_;
+    [[nodiscard]] Vec displacement(const State& state, const simd::PairView& pairs, std::size_t i) const;
+
     double skin_ = 0, near_skin_ = 0, near_budget_ = 0;
+    double shear_rate_ = 0, radius_max_ = 0, time_ = 0, built_time_ = 0;
     bool stale_ = true;
     int fields_ = 0;           // numbers that a contact remembers
     ContactMemory remembered_; // while there are no lists

@@ -304,7 +304,8 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     // A function of the scene alone. Lists are measured to be the fastest from a few grains on, at any
     // density; `tools/bench kernels` shows it.
     const std::size_t few = 32;
-    const bool small = needs.grains + needs.poured <= few;
+    const bool sheared = scene.domain.shear_rate != 0; // only lists know the seam
+    const bool small = needs.grains + needs.poured <= few && !sheared;
     plan.neighbours = small ? NeighbourMethod::brute_force : NeighbourMethod::verlet;
     plan.chosen.push_back(small ? fmt::format("neighbours: brute force, {} grains or fewer", few)
                                 : "neighbours: Verlet lists, the fastest for more than a few grains");
@@ -316,6 +317,7 @@ void note_skipped(const Scene& scene, const Needs& needs, Plan& plan) {
     };
     skip(!turns(plan),
          "rotation: no angle, spin or torque columns and kernels (no friction couples to spin)");
+    skip(plan.dimension == 3 && turns(plan) && !plan.orientation, "orientations: nothing asks for them");
     skip(!plan.many_radii, "radii: one radius, the distance stage compares with a constant");
     skip(!plan.many_materials, "materials: one material, no gather of coefficients");
     skip(!plan.walls, "walls: none");
@@ -367,6 +369,7 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     const scene::TangentialLaw without =
         idle ? scene::TangentialLaw::haff_werner : scene::TangentialLaw::none;
     plan.tangential = static_cast<int>(needs.friction ? scene.md.tangential : without);
+    plan.orientation = scene.md.orientation && turns;
     set_memory(plan);
     plan.many_materials = needs.many_materials;
     plan.many_radii = needs.many_radii;

@@ -42,6 +42,7 @@ struct Plan {
     // Numbers that a contact remembers, and how many of them change sign when its partners are exchanged.
     int memory = 0, odd_memory = 0;
     simd::Rotation rotation = simd::Rotation::none;
+    bool orientation = false; // 3D: followed for outputs
     bool many_materials = false, many_radii = false, walls = false;
     int normal = 0, tangential = 0; // positions in laws.def
     double inertia_factor = 0.5;    // J = c m R^2

@@ -20,6 +20,11 @@ bool suits(const State& state, std::size_t i, const scene::Scene& scene, const P
     for (int dof = 0; dof < state.dofs(); ++dof)
         for (int k = 2; k < state.order; ++k)
             if (!std::isfinite(state.value(i, dof, k))) return false;
+    if (plan.orientation) {
+        const Quaternion q = state.orientation_of(i);
+        const double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+        if (!(std::abs(square - 1) < 1e-12)) return false;
+    }
     const auto near = [&](double x, double low, double high) {
         return x > low - needs.radius_min && x < high + needs.radius_min;
     };

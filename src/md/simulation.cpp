@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "md/orientation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,8 @@ void Simulation::prepare_method() {
     lattice_ = Lattice();
     cells_ = LinkCells();
     lists_ = PairLists();
-    state_.double_records = plan_.neighbours == NeighbourMethod::verlet;
+    state_.double_records = plan_.neighbours == NeighbourMethod::verlet || plan_.orientation;
+    state_.keeps_forces = plan_.neighbours != NeighbourMethod::verlet;
     state_.resize_buffers();
     if (is_lattice(plan_.neighbours)) {
         lattice_ = Lattice(scene_, plan_, needs_.radius_max);
@@ -50,19 +52,25 @@ void Simulation::prepare_method() {
     }
 }
 
+scene::GrainState Simulation::with_shear_flow(scene::GrainState grain) const {
+    const double middle = 0.5 * (plan_.lower.y + plan_.upper.y);
+    grain.velocity.x += scene_.domain.shear_rate * (grain.position.y - middle);
+    return grain;
+}
+
 // Accelerations before the first step: without them every velocity would keep an error of a dt/2.
 void Simulation::start(const std::vector<scene::GrainState>& grains) {
     for (const scene::GrainState& g : grains)
         if (g.insert_at > -infinity)
             waiting_.push_back(g);
         else
-            state_.append(g, plan_.dt);
+            state_.append(with_shear_flow(g), plan_.dt);
     std::stable_sort(waiting_.begin(), waiting_.end(),
                      [](const auto& a, const auto& b) { return a.insert_at < b.insert_at; });
     sort_by_place();
     bin();
     const std::vector<double> forces = take_forces();
-    const simd::MotionView view = motion_view();
+    const simd::MotionView view = motion_view(force_step_);
     for (std::size_t i = 0; i < state_.size(); ++i)
         state_.set_accelerations(i, forces.data() + i * state_.force_stride(), view);
     wall_work_ = 0;
@@ -75,7 +83,10 @@ void Simulation::run(std::int64_t steps) {
     const std::int64_t end = step_ + steps;
     while (step_ < end) {
         insert_due();
-        if (step_ % sort_interval == 0 || !sorted_) sort_by_place();
+        if (step_ % sort_interval == 0 || !sorted_) {
+            empty_sinks();
+            sort_by_place();
+        }
         const std::int64_t stop = next_stop(end);
         integrate(false, true);
         while (step_ < stop) {
@@ -107,7 +118,11 @@ std::int64_t Simulation::next_stop(std::int64_t end) const {
 
 void Simulation::integrate(bool correct, bool predict) {
     const simd::MotionKernel kernel = motion_kernel(correct, predict);
-    const simd::MotionView whole = motion_view();
+    simd::MotionView whole = motion_view(force_step_);
+    if (state_.double_records) {
+        whole.new_records = state_.next_record.data();
+        whole.new_spins = state_.next_spin.data();
+    }
     const std::size_t n = state_.size();
     const bool on_lattice = predict && is_lattice(plan_.neighbours);
     motion_results_.assign(state_.tiles(), {});
@@ -120,7 +135,14 @@ void Simulation::integrate(bool correct, bool predict) {
         if (on_lattice && motion_results_[tile].outside == 0)
             lattice_.leave(state_, kernels_->plane.bin, begin, end);
     });
+    if (state_.double_records) use_new_records(predict);
     if (predict) check_motion();
+}
+
+void Simulation::use_new_records(bool predicted) {
+    state_.record.swap(state_.next_record);
+    state_.spin.swap(state_.next_spin);
+    if (predicted && plan_.orientation) turn_grains(state_, state_.next_spin, plan_.threads);
 }
 
 simd::MotionKernel Simulation::motion_kernel(bool correct, bool predict) const {
@@ -132,10 +154,11 @@ simd::MotionKernel Simulation::motion_kernel(bool correct, bool predict) const {
 // records go to the other buffer because tiles that come later still need these.
 void Simulation::forces_and_motion(bool predict) {
     const simd::MotionKernel kernel = motion_kernel(true, predict);
-    simd::MotionView whole = motion_view();
+    simd::MotionView whole = motion_view(force_step_ + 1);
     whole.new_records = state_.next_record.data();
     whole.new_spins = state_.next_spin.data();
     move_walls();
+    lists_.set_time(static_cast<double>(force_step_) * plan_.dt);
     lists_.update(state_, pair_view(), kernels(), plan_.threads);
     const std::size_t n = state_.size();
     motion_results_.assign(state_.tiles(), {});
@@ -152,8 +175,7 @@ void Simulation::forces_and_motion(bool predict) {
     check_walls();
     add_wall_work();
     ++force_step_;
-    state_.record.swap(state_.next_record);
-    state_.spin.swap(state_.next_spin);
+    use_new_records(predict);
     if (predict) check_motion();
 }
 
@@ -187,7 +209,8 @@ void Simulation::check_motion() {
             0.1 * needs_.radius_min / largest_speed_);
     // The factor covers what a contact changes of the speed within the step.
     walls_.account(1.25 * plan_.dt * (largest_speed_ + walls_.fastest()));
-    lists_.account(1.25 * plan_.dt * largest_speed_);
+    const double seam_speed = std::abs(scene_.domain.shear_rate) * (plan_.upper.y - plan_.lower.y);
+    lists_.account(1.25 * plan_.dt * (largest_speed_ + 0.5 * seam_speed));
     if (outside > 0) return handle_outside();
     if (is_lattice(plan_.neighbours))
         for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
@@ -220,6 +243,7 @@ std::vector<double> Simulation::take_forces() {
         return forces;
     }
     move_walls();
+    lists_.set_time(static_cast<double>(force_step_) * plan_.dt);
     lists_.update(state_, pair_view(), kernels(), plan_.threads);
     tile_overlaps_.assign(state_.tiles(), 0.0);
     wall_results_.assign(state_.tiles(), {});
@@ -325,7 +349,8 @@ void Simulation::add_wall_work() {
     wall_power_ = power;
 }
 
-simd::MotionView Simulation::motion_view() {
+// predicted: step whose positions the prediction gives.
+simd::MotionView Simulation::motion_view(std::int64_t predicted) {
     const Vec size = plan_.upper - plan_.lower, g = scene_.domain.gravity;
     const double gravity[] = {g.x, g.y, g.z}, lower[] = {plan_.lower.x, plan_.lower.y, plan_.lower.z};
     const double upper[] = {plan_.upper.x, plan_.upper.y, plan_.upper.z}, sizes[] = {size.x, size.y, size.z};
@@ -345,7 +370,24 @@ simd::MotionView Simulation::motion_view() {
         view.upper[d] = upper[d];
         view.period[d] = scene_.domain.periodic[d] ? sizes[d] : 0.0;
     }
+    view.sheared = scene_.domain.shear_rate != 0;
+    view.seam = seam(static_cast<double>(predicted) * plan_.dt);
+    view.seam_shift = scene_.domain.shear_rate * size.y * plan_.dt;
     return view;
+}
+
+// How far along x the images beyond the upper side stand: [-1/2, 1/2) of the period.
+double Simulation::seam(double time) const {
+    if (scene_.domain.shear_rate == 0) return 0;
+    const Vec size = plan_.upper - plan_.lower;
+    const double offset = scene_.domain.shear_rate * size.y * time;
+    return offset - size.x * std::floor(offset / size.x + 0.5);
+}
+
+scene::Box Simulation::box(double time) const {
+    scene::Box box(scene_.domain);
+    box.seam = seam(time);
+    return box;
 }
 
 simd::PairView Simulation::pair_view() {
@@ -364,6 +406,9 @@ simd::PairView Simulation::pair_view() {
     view.materials = static_cast<std::int32_t>(scene_.materials.size());
     view.dt = plan_.dt;
     view.inverse_dt = 1.0 / plan_.dt;
+    view.sheared = scene_.domain.shear_rate != 0;
+    view.seam = seam(static_cast<double>(force_step_) * plan_.dt);
+    view.seam_shift = scene_.domain.shear_rate * size.y * plan_.dt;
     return view;
 }
 

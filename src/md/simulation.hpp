@@ -10,6 +10,7 @@
 #include "md/plan.hpp"
 #include "md/state.hpp"
 #include "md/walls.hpp"
+#include "scene/cell_grid.hpp"
 #include "scene/scene.hpp"
 
 #include <cstdint>
@@ -71,10 +72,14 @@ private:
     void start(const std::vector<scene::GrainState>& grains);
     void sort_by_place();
     void insert_due();
-    [[nodiscard]] bool has_room(const scene::GrainState& grain) const;
+    class Room;
+    void empty_sinks();
+    void take_out(std::size_t grain);
+    void keep(const std::vector<std::uint32_t>& kept);
 
     void integrate(bool correct, bool predict);
     void forces_and_motion(bool predict);
+    void use_new_records(bool predicted);
     void check_motion();
     void bin();
     void pair_forces();
@@ -96,7 +101,10 @@ private:
     void use_link_cells();
     [[noreturn]] void fail_overlap() const;
     void check_overlap(double overlap) const;
-    [[nodiscard]] simd::MotionView motion_view();
+    [[nodiscard]] simd::MotionView motion_view(std::int64_t predicted);
+    [[nodiscard]] scene::GrainState with_shear_flow(scene::GrainState grain) const;
+    [[nodiscard]] double seam(double time) const;
+    [[nodiscard]] scene::Box box(double time) const;
     [[nodiscard]] simd::PairView pair_view();
     [[nodiscard]] std::int64_t insertion_step(const scene::GrainState& grain) const;
     [[nodiscard]] std::int64_t next_stop(std::int64_t end) const;

@@ -10,6 +10,7 @@ void State::prepare(const Plan& plan, const scene::Domain& domain) {
     dimension = plan.dimension;
     order = plan.order;
     rotation = plan.rotation;
+    follows_orientation_ = plan.orientation;
     parking_ = plan.lower;
     for (std::size_t d = 0; d < 3; ++d) periodic_[d] = domain.periodic[d] && static_cast<int>(d) < dimension;
 }
@@ -51,7 +52,7 @@ void State::resize_buffers() {
     const std::size_t rows = padded(size()) + block_width;
     next_record.resize(double_records ? record.size() : 0, 0.0);
     next_spin.resize(double_records ? spin.size() : 0, 0.0);
-    force.resize(double_records ? 0 : rows * force_stride(), 0.0);
+    force.resize(keeps_forces ? rows * force_stride() : 0, 0.0);
 }
 
 // Padding lanes go through the integrator like particles; gravity must not carry them to infinity for ever.
@@ -94,7 +95,16 @@ void State::append(const scene::GrainState& grain, double dt) {
         const double fields[] = {w.x, w.y, w.z, r};
         std::copy_n(fields, simd::spin_fields, spin.data() + i * simd::spin_fields);
     }
+    if (follows_orientation_) set_orientation(i, {});
     park_padding();
+}
+
+void State::set_orientation(std::size_t i, Quaternion q) {
+    double* to = orientation.data() + 4 * i;
+    to[0] = q.w;
+    to[1] = q.x;
+    to[2] = q.y;
+    to[3] = q.z;
 }
 
 void State::set_accelerations(std::size_t i, const double* forces, const simd::MotionView& view) {

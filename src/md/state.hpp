@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/column.hpp"
+#include "core/quaternion.hpp"
 #include "core/vec.hpp"
 #include "md/plan.hpp"
 #include "scene/initial_state.hpp"
@@ -25,8 +26,9 @@ struct State {
     // Nordsieck-scaled (docs/physics.md 7).
     Column<double> record, spin, gear;
     Column<double> next_record, next_spin; // where forces and motion share one pass (double_records)
-    bool double_records = false;
-    Column<double> force; // [particle][force_stride], zero between steps
+    bool double_records = false, keeps_forces = true;
+    Column<double> force;       // [particle][force_stride], zero between steps (keeps_forces)
+    Column<double> orientation; // [particle][w, x, y, z], where it is followed
     Column<double> mass, inverse_mass;
     Column<std::int32_t> material;
     std::array<Column<std::int32_t>, 3> image; // of periodic sides; else empty
@@ -64,6 +66,12 @@ struct State {
     [[nodiscard]] double& value(std::size_t i, int dof, int k) { return gear[gear_index(i, dof, k)]; }
     [[nodiscard]] double value(std::size_t i, int dof, int k) const { return gear[gear_index(i, dof, k)]; }
 
+    [[nodiscard]] Quaternion orientation_of(std::size_t i) const {
+        const double* q = orientation.data() + 4 * i;
+        return {q[0], q[1], q[2], q[3]};
+    }
+    void set_orientation(std::size_t i, Quaternion q);
+
     // A grain with no accelerations.
     void append(const scene::GrainState& grain, double dt);
     // Value k = 2 of all degrees of freedom from the accumulated forces.
@@ -82,6 +90,7 @@ private:
     template <class Self, class Body> static void for_columns_of(Self& self, const Body& body) {
         body(self.record, std::size_t{simd::record_fields});
         body(self.spin, self.spin_fields());
+        body(self.orientation, std::size_t{self.follows_orientation_ ? 4U : 0U});
         body(self.mass, std::size_t{1});
         body(self.inverse_mass, std::size_t{1});
         body(self.material, std::size_t{1});
@@ -105,6 +114,7 @@ private:
 
     Vec parking_; // a position inside the domain for the padding lanes
     std::array<bool, 3> periodic_{};
+    bool follows_orientation_ = false;
 };
 
 } // namespace sandlane::md

@@ -15,7 +15,7 @@ Observables Simulation::observe() const {
     Walls now = walls_;
     now.move_to(time());
     const ContactMemory pairs = lists_.memory(state_), walls = walls_.memory(state_);
-    return md::observe(scene_, plan_, state_, now, coefficients_, {pairs, walls});
+    return md::observe(scene_, plan_, state_, now, coefficients_, {pairs, walls}, box(time()));
 }
 
 std::vector<double> Simulation::forces(simd::Isa isa, NeighbourMethod method) const {
@@ -61,7 +61,7 @@ analysis::Snapshot Simulation::snapshot() const {
     s.periodic_y = scene_.domain.periodic[1];
     s.periodic_z = scene_.domain.periodic[2];
     const Observables now = observe();
-    const scene::Box box(scene_.domain);
+    const scene::Box box = this->box(time());
     const double rate = 1 / plan_.dt;
     for (const std::size_t i : by_id(state_)) {
         const Vec p = box.wrapped(state_.position(i)), v = rate * state_.shift(i), w = rate * state_.turn(i);
@@ -84,6 +84,7 @@ analysis::Snapshot Simulation::snapshot() const {
         s.omega_x.push_back(w.x);
         s.omega_y.push_back(w.y);
         s.image_z.push_back(state_.images(i, 2));
+        if (plan_.orientation) s.orientation.push_back(state_.orientation_of(i));
     }
     s.walls = walls_.shapes(time());
     return s;
@@ -93,7 +94,7 @@ analysis::Contacts Simulation::contacts() const {
     Walls now = walls_;
     now.move_to(time());
     const ContactMemory pairs = lists_.memory(state_), walls = walls_.memory(state_);
-    analysis::Contacts all = md::contacts(scene_, plan_, state_, now, coefficients_, {pairs, walls});
+    analysis::Contacts all = md::contacts(scene_, plan_, state_, now, coefficients_, {pairs, walls}, box(time()));
     std::vector<std::int32_t> place(state_.size()); // storage index -> index in the snapshot
     std::int32_t next = 0;
     for (const std::size_t i : by_id(state_)) place[i] = next++;
@@ -120,6 +121,10 @@ Hash128 Simulation::state_hash() const {
         for (int dof = 0; dof < state_.dofs(); ++dof)
             for (int k = 2; k < state_.order; ++k) values.push_back(state_.value(i, dof, k));
         values.push_back(state_.mass[i]);
+        if (plan_.orientation) {
+            const Quaternion q = state_.orientation_of(i);
+            values.insert(values.end(), {q.w, q.x, q.y, q.z});
+        }
         for (std::size_t d = 0; d < 3; ++d) values.push_back(state_.images(i, d));
     }
     values.push_back(static_cast<double>(step_));

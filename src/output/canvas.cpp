@@ -1,6 +1,7 @@
 #include "output/canvas.hpp"
 
 #include "output/font.hpp"
+#include "output/raster.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,26 +13,6 @@ namespace {
 
 unsigned char byte(float value) {
     return static_cast<unsigned char>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255));
-}
-
-// Share of a pixel inside an edge whose signed distance from the pixel's centre is `inside`.
-float coverage(double inside) {
-    return static_cast<float>(std::clamp(inside + 0.5, 0.0, 1.0));
-}
-
-Rgb mix(Rgb a, Rgb b, float t) {
-    return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
-}
-
-// First and last pixel, inside [low, high), that a figure between `from` and `to` can touch.
-struct Range {
-    int first, last;
-};
-Range pixels_between(double from, double to, int low, int high) {
-    if (!(from <= to)) return {low, low}; // also for what is not a number
-    const double first = std::clamp(std::floor(from), static_cast<double>(low), static_cast<double>(high));
-    const double last = std::clamp(std::ceil(to), static_cast<double>(low), static_cast<double>(high));
-    return {static_cast<int>(first), static_cast<int>(last)};
 }
 
 } // namespace
@@ -68,11 +49,10 @@ void Canvas::blend(int x, int y, Rgb colour, float opacity) {
 }
 
 void Canvas::rectangle(double left, double top, double right, double bottom, Rgb colour) {
-    const Range columns = pixels_between(left, right, left_, right_);
-    const Range rows = pixels_between(top, bottom, top_, bottom_);
-    for (int y = rows.first; y < rows.last; ++y) {
+    const PixelRange across = columns(left, right), down = rows(top, bottom);
+    for (int y = down.first; y < down.last; ++y) {
         const double high = std::min(y + 1.0, bottom) - std::max<double>(y, top);
-        for (int x = columns.first; x < columns.last; ++x) {
+        for (int x = across.first; x < across.last; ++x) {
             const double wide = std::min(x + 1.0, right) - std::max<double>(x, left);
             blend(x, y, colour, static_cast<float>(std::clamp(wide * high, 0.0, 1.0)));
         }
@@ -83,10 +63,10 @@ void Canvas::disc(double cx, double cy, double radius, Rgb fill, Rgb rim, double
     // A disc smaller than a pixel keeps its area by fading.
     const double drawn = std::max(radius, 0.5);
     const auto fade = static_cast<float>(radius * radius / (drawn * drawn));
-    const Range columns = pixels_between(cx - drawn - 1, cx + drawn + 1, left_, right_);
-    const Range rows = pixels_between(cy - drawn - 1, cy + drawn + 1, top_, bottom_);
-    for (int y = rows.first; y < rows.last; ++y) {
-        for (int x = columns.first; x < columns.last; ++x) {
+    const PixelRange across = columns(cx - drawn - 1, cx + drawn + 1);
+    const PixelRange down = rows(cy - drawn - 1, cy + drawn + 1);
+    for (int y = down.first; y < down.last; ++y) {
+        for (int x = across.first; x < across.last; ++x) {
             const double dx = x + 0.5 - cx, dy = y + 0.5 - cy;
             const double squared = dx * dx + dy * dy;
             if (squared > (drawn + 0.5) * (drawn + 0.5)) continue;
@@ -98,26 +78,8 @@ void Canvas::disc(double cx, double cy, double radius, Rgb fill, Rgb rim, double
 }
 
 void Canvas::stroke(double x0, double y0, double x1, double y1, double width, Rgb colour, float opacity) {
-    const double half = width / 2, reach = half + 1;
-    const double ux = x1 - x0, uy = y1 - y0;
-    const double length2 = ux * ux + uy * uy;
-    const Range rows = pixels_between(std::min(y0, y1) - reach, std::max(y0, y1) + reach, top_, bottom_);
-    for (int y = rows.first; y < rows.last; ++y) {
-        // The part of the line near this row bounds the columns to look at.
-        double from = std::min(x0, x1), to = std::max(x0, x1);
-        if (std::abs(uy) > 1e-9) {
-            const double a = std::clamp((y - reach - y0) / uy, 0.0, 1.0);
-            const double b = std::clamp((y + 1 + reach - y0) / uy, 0.0, 1.0);
-            from = std::min(x0 + a * ux, x0 + b * ux);
-            to = std::max(x0 + a * ux, x0 + b * ux);
-        }
-        const Range columns = pixels_between(from - reach, to + reach, left_, right_);
-        for (int x = columns.first; x < columns.last; ++x) {
-            const double px = x + 0.5 - x0, py = y + 0.5 - y0;
-            const double t = length2 > 0 ? std::clamp((px * ux + py * uy) / length2, 0.0, 1.0) : 0;
-            blend(x, y, colour, opacity * coverage(half - std::hypot(px - t * ux, py - t * uy)));
-        }
-    }
+    for_stroke(x0, y0, x1, y1, width,
+               [&](int x, int y, double, float cover) { blend(x, y, colour, opacity * cover); });
 }
 
 void Canvas::arc(double cx, double cy, double radius, double from, double to, double width, Rgb colour) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <numbers>
 
 namespace sandlane::output {
@@ -59,12 +61,12 @@ const std::array<Rgb, 256>& colour_map() {
     return map;
 }
 
-Quantity quantity(scene::Colour colour, scene::Body body) {
+Quantity quantity(scene::Colour colour, std::int64_t dimension) {
     switch (colour) {
     case scene::Colour::speed:
         return {"speed", "m/s"};
     case scene::Colour::pressure:
-        return {"pressure", body == scene::Body::disc ? "N/m" : "Pa"};
+        return {"pressure", analysis::pressure_unit(dimension)};
     case scene::Colour::spin:
         return {"spin", "rad/s"};
     case scene::Colour::radius:
@@ -78,13 +80,13 @@ std::vector<double> colour_values(const analysis::Snapshot& s, scene::Colour col
     for (std::size_t i = 0; i < s.size(); ++i) {
         switch (colour) {
         case scene::Colour::speed:
-            values[i] = std::hypot(s.vx[i], s.vy[i]);
+            values[i] = s.dimension == 3 ? norm(s.velocity(i)) : std::hypot(s.vx[i], s.vy[i]);
             break;
         case scene::Colour::pressure:
             values[i] = std::max(0.0, s.pressure[i]);
             break;
         case scene::Colour::spin:
-            values[i] = std::abs(s.omega[i]);
+            values[i] = s.dimension == 3 ? norm(s.angular_velocity(i)) : std::abs(s.omega[i]);
             break;
         case scene::Colour::radius:
             values[i] = s.radius[i];
@@ -99,6 +101,18 @@ double largest_finite(const std::vector<double>& values) {
     for (const double value : values)
         if (std::isfinite(value)) largest = std::max(largest, value);
     return largest;
+}
+
+double usual_high(const std::vector<double>& values) {
+    const double largest = largest_finite(values);
+    std::vector<double> finite;
+    std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
+                 [](double value) { return std::isfinite(value); });
+    if (finite.empty()) return 0;
+    const auto above = finite.begin() + static_cast<std::ptrdiff_t>(finite.size() / 100);
+    std::nth_element(finite.begin(), above, finite.end(), std::greater<>());
+    const bool far_above = *above > 0 && largest > 1.25 * *above;
+    return far_above ? *above : largest;
 }
 
 double round_up(double value) {

@@ -27,14 +27,19 @@ struct Rgb {
 struct Quantity {
     std::string_view name, unit;
 };
-[[nodiscard]] Quantity quantity(scene::Colour colour, scene::Body body);
+[[nodiscard]] Quantity quantity(scene::Colour colour, std::int64_t dimension);
 
 // One value per grain, never negative: speed, contact pressure (tension counts as 0), size of the spin,
-// radius.
+// radius. Not a number where the snapshot has none.
 [[nodiscard]] std::vector<double> colour_values(const analysis::Snapshot& snapshot, scene::Colour colour);
 
 // 0 if no value is finite and positive.
 [[nodiscard]] double largest_finite(const std::vector<double>& values);
+
+// Where a colour scale may end: the value that one grain in a hundred exceeds, or the largest if that is at
+// most a quarter above it: a few fast grains must not leave all others dark. 0 if no value is finite and
+// positive.
+[[nodiscard]] double usual_high(const std::vector<double>& values);
 
 // The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten that is not below `value` (> 0).
 [[nodiscard]] double round_up(double value);

@@ -3,6 +3,8 @@
 #include "core/file.hpp"
 #include "output/picture_frame.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace sandlane::output {
@@ -30,7 +32,7 @@ void write_heat_map(const std::filesystem::path& path, const analysis::Grid& gri
     canvas.clip_nothing();
     draw_scale_bar(canvas, v);
     const std::string unit = grid.unit.empty() ? "" : " (" + grid.unit + ")";
-    draw_colour_bar(canvas, v, 0, high, grid.label + unit);
+    draw_colour_bar(canvas, v, "0", fmt::format("{:.3g}", high), grid.label + unit);
     write_file_atomically(path, canvas.png());
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/file.hpp"
 #include "output/picture_frame.hpp"
+#include "output/picture_space.hpp"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@ using analysis::WallShape;
 
 struct ColourScale {
     double low = 0, high = 1;
+    bool cut = false; // there are values above
     [[nodiscard]] Rgb of(double value) const { return map_colour((value - low) / (high - low)); }
 };
 
@@ -23,10 +25,12 @@ ColourScale make_scale(const std::vector<double>& values, const PictureStyle& st
     ColourScale scale;
     const double largest = largest_finite(values);
     const double smallest = values.empty() ? 0 : *std::min_element(values.begin(), values.end());
-    scale.high = style.scale_max > 0 ? style.scale_max : largest > 0 ? round_up(largest) : 1;
+    const double usual = style.colour == scene::Colour::radius ? largest : usual_high(values);
+    scale.high = style.scale_max > 0 ? style.scale_max : usual > 0 ? round_up(usual) : 1;
     const bool from_smallest = style.colour == scene::Colour::radius && smallest < 0.999 * largest;
     if (from_smallest && style.scale_max <= 0) scale.high = largest;
     scale.low = from_smallest && smallest < scale.high ? smallest : 0;
+    scale.cut = largest > scale.high;
     return scale;
 }
 
@@ -43,32 +47,53 @@ void draw_grain(Canvas& canvas, const View& v, const Snapshot& s, std::size_t i,
             draw_disc(canvas, x + kx * wide, y + ky * high, r, s.angle[i], colour);
 }
 
-void label_colours(Canvas& canvas, const View& v, const ColourScale& scale, const PictureStyle& style) {
-    const Quantity shown = quantity(style.colour, style.body);
-    const bool millimetres = style.colour == scene::Colour::radius && scale.high < 0.1;
+void draw_plane(Canvas& canvas, const View& v, const Snapshot& s, const std::vector<Rgb>& colours) {
+    for (std::size_t i = 0; i < s.size(); ++i) draw_grain(canvas, v, s, i, colours[i]);
+    for (const WallShape& wall : s.walls) draw_wall(canvas, v, wall);
+}
+
+void label_colours(Canvas& canvas, const View& v, const ColourScale& scale, scene::Colour colour,
+                   int dimension) {
+    const Quantity shown = quantity(colour, dimension);
+    const bool millimetres = colour == scene::Colour::radius && scale.high < 0.1;
     const double factor = millimetres ? 1000 : 1;
-    draw_colour_bar(canvas, v, scale.low * factor, scale.high * factor,
+    draw_colour_bar(canvas, v, fmt::format("{:.3g}", scale.low * factor),
+                    fmt::format("{}{:.3g}", scale.cut ? "> " : "", scale.high * factor),
                     fmt::format("{} ({})", shown.name, millimetres ? "mm" : shown.unit));
 }
 
 } // namespace
 
+PictureStyle picture_style(const scene::Scene& scene) {
+    PictureStyle style;
+    style.colour = scene.output.colour;
+    style.width = static_cast<int>(scene.output.picture_width);
+    style.camera = camera_of(scene);
+    return style;
+}
+
 void write_picture(const std::filesystem::path& path, const Snapshot& s, const PictureStyle& style) {
-    const View v = make_view(s.lower, s.upper, style.width);
+    const bool space = s.dimension == 3;
+    const View v =
+        space ? make_space_view(s, style.camera, style.width) : make_view(s.lower, s.upper, style.width);
     Canvas canvas(v.width, v.height, paper);
     draw_ground(canvas, v);
 
     clip_to_view(canvas, v);
     const std::vector<double> values = colour_values(s, style.colour);
     const ColourScale scale = make_scale(values, style);
-    for (std::size_t i = 0; i < s.size(); ++i) draw_grain(canvas, v, s, i, scale.of(values[i]));
-    for (const WallShape& wall : s.walls) draw_wall(canvas, v, wall);
+    std::vector<Rgb> colours;
+    for (const double value : values) colours.push_back(scale.of(value));
+    if (space)
+        draw_space(canvas, v, s, style.camera, colours);
+    else
+        draw_plane(canvas, v, s, colours);
     canvas.clip_nothing();
 
     draw_scale_bar(canvas, v);
     canvas.text(v.width / 2.0 - 0.04 * v.width, v.baseline() - 10 * v.unit, 13 * v.unit,
                 fmt::format("t = {:.4g} s", s.time), ink, Canvas::Anchor::middle);
-    label_colours(canvas, v, scale, style);
+    label_colours(canvas, v, scale, style.colour, s.dimension);
     write_file_atomically(path, canvas.png());
 }
 

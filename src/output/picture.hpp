@@ -1,7 +1,9 @@
-// PNG pictures of a snapshot: grains coloured by a quantity, walls, scale bar, colour bar and time.
+// PNG pictures of a snapshot: grains coloured by a quantity, walls, scale bar, colour bar and time. Grains in
+// space are seen through their walls.
 #pragma once
 
 #include "analysis/snapshot.hpp"
+#include "output/camera.hpp"
 #include "scene/scene.hpp"
 
 #include <filesystem>
@@ -12,9 +14,10 @@ namespace sandlane::output {
 struct PictureStyle {
     scene::Colour colour = scene::Colour::speed;
     int width = 800;      // pixels; the height follows from the domain
-    double scale_max = 0; // upper end of the colour scale; 0: largest value of the snapshot, rounded up
-    scene::Body body = scene::Body::sphere; // decides the unit of a pressure
+    double scale_max = 0; // upper end of the colour scale; 0: usual_high() of the snapshot, rounded up
+    Camera camera{};      // 3D
 };
+[[nodiscard]] PictureStyle picture_style(const scene::Scene& scene);
 
 void write_picture(const std::filesystem::path& path, const analysis::Snapshot& snapshot,
                    const PictureStyle& style);

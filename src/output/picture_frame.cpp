@@ -13,7 +13,7 @@ using analysis::WallShape;
 namespace {
 
 constexpr Rgb ground{0.965F, 0.969F, 0.976F}, frame{0.80F, 0.82F, 0.85F};
-constexpr Rgb wall_ink{0.19F, 0.22F, 0.28F}, wall_grey{0.62F, 0.65F, 0.69F};
+constexpr Rgb wall_ink{0.19F, 0.22F, 0.28F};
 constexpr double tallest = 1.5; // height of the domain's image in units of the picture's width, at most
 
 Rgb darker(Rgb c) {
@@ -112,16 +112,17 @@ void draw_scale_bar(Canvas& canvas, const View& v) {
     canvas.text(x0, baseline, 10 * v.unit, length_label(length), ink);
 }
 
-void draw_colour_bar(Canvas& canvas, const View& v, double low, double high, std::string_view name) {
+void draw_colour_bar(Canvas& canvas, const View& v, std::string_view low, std::string_view high,
+                     std::string_view name) {
     const double x1 = v.width - 17 * v.unit, x0 = x1 - 0.30 * v.width;
     const double top = v.baseline() - 27 * v.unit, bottom = top + 10 * v.unit;
     const int columns = static_cast<int>(std::ceil(x1 - x0));
     for (int k = 0; k < columns; ++k)
         canvas.rectangle(x0 + k, top, std::min(x0 + k + 1, x1), bottom, map_colour((k + 0.5) / columns));
     const double size = 10 * v.unit;
-    canvas.text(x0, v.baseline(), size, fmt::format("{:.3g}", low), ink);
+    canvas.text(x0, v.baseline(), size, low, ink);
     canvas.text((x0 + x1) / 2, v.baseline(), size, name, ink, Canvas::Anchor::middle);
-    canvas.text(x1, v.baseline(), size, fmt::format("{:.3g}", high), ink, Canvas::Anchor::end);
+    canvas.text(x1, v.baseline(), size, high, ink, Canvas::Anchor::end);
 }
 
 } // namespace sandlane::output

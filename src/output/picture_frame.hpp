@@ -9,6 +9,7 @@
 namespace sandlane::output {
 
 inline constexpr Rgb paper{1, 1, 1}, ink{0.15F, 0.18F, 0.23F};
+inline constexpr Rgb wall_grey{0.62F, 0.65F, 0.69F};
 
 // Where a rectangle of the plane lies in the picture. World y points up, pixel y down.
 struct View {
@@ -29,9 +30,11 @@ struct View {
 void clip_to_view(Canvas& canvas, const View& view);
 void draw_ground(Canvas& canvas, const View& view);
 void draw_disc(Canvas& canvas, double x, double y, double radius, double angle, Rgb colour);
+// 2D; triangles are left out.
 void draw_wall(Canvas& canvas, const View& view, const analysis::WallShape& wall);
 void draw_scale_bar(Canvas& canvas, const View& view);
-// Labels the ends of the colour map with numbers.
-void draw_colour_bar(Canvas& canvas, const View& view, double low, double high, std::string_view label);
+// Labels the ends of the colour map and the map.
+void draw_colour_bar(Canvas& canvas, const View& view, std::string_view low, std::string_view high,
+                     std::string_view label);
 
 } // namespace sandlane::output

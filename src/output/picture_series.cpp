@@ -14,10 +14,7 @@ namespace sandlane::output {
 namespace fs = std::filesystem;
 
 PictureSeries::PictureSeries(fs::path folder, const scene::Scene& scene, const std::string& bookmark)
-    : folder_(std::move(folder)) {
-    style_.colour = scene.output.colour;
-    style_.body = scene.md.body;
-    style_.width = static_cast<int>(scene.output.picture_width);
+    : folder_(std::move(folder)), style_(picture_style(scene)) {
     if (!bookmark.empty()) restore(bookmark);
 }
 
@@ -39,8 +36,9 @@ void PictureSeries::restore(const std::string& bookmark) {
 }
 
 void PictureSeries::write(const analysis::Snapshot& snapshot) {
-    const double largest = largest_finite(colour_values(snapshot, style_.colour));
-    if (largest > 0) style_.scale_max = std::max(style_.scale_max, round_up(largest));
+    const std::vector<double> values = colour_values(snapshot, style_.colour);
+    const double high = style_.colour == scene::Colour::radius ? largest_finite(values) : usual_high(values);
+    if (high > 0) style_.scale_max = std::max(style_.scale_max, round_up(high));
     std::error_code status;
     fs::create_directories(folder_, status);
     if (status) fail(Exit::io, "{}: cannot create the folder: {}", folder_.string(), status.message());

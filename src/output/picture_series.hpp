@@ -25,7 +25,7 @@ private:
     void restore(const std::string& bookmark);
 
     std::filesystem::path folder_;
-    PictureStyle style_; // scale_max: the largest value so far, rounded up
+    PictureStyle style_; // scale_max: the largest usual_high() so far, rounded up
     std::int64_t count_ = 0;
 };
 

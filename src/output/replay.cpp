@@ -3,6 +3,7 @@
 #include "core/bytes.hpp"
 #include "core/hash.hpp"
 #include "output/colours.hpp"
+#include "output/wall_edges.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -58,8 +59,32 @@ void append_wall(const WallShape& wall, std::vector<float>& numbers) {
         add({2, wall.centre.x, wall.centre.y, wall.radius, wall.angle, 0});
         break;
     case WallShape::Kind::triangle:
+        add({3, wall.a.x, wall.a.y, wall.a.z, wall.b.x, wall.b.y, wall.b.z, wall.c.x, wall.c.y, wall.c.z});
         break;
     }
+}
+
+void append_edge(const WallEdge& e, std::vector<float>& numbers) {
+    for (const double value : {4.0, e.a.x, e.a.y, e.a.z, e.b.x, e.b.y, e.b.z, 0.0, 0.0, 0.0})
+        numbers.push_back(static_cast<float>(value));
+}
+
+// Borders and bends; of many the longest.
+std::vector<WallEdge> replayed_edges(const std::vector<WallShape>& walls) {
+    std::vector<WallEdge> edges = wall_edges(walls);
+    std::erase_if(edges, [](const WallEdge& e) { return !e.is_sharp(); });
+    if (edges.size() <= most_triangles) return edges;
+    std::stable_sort(edges.begin(), edges.end(),
+                     [](const WallEdge& a, const WallEdge& b) { return norm(a.b - a.a) > norm(b.b - b.a); });
+    edges.resize(most_triangles);
+    return edges;
+}
+
+void append_walls(const Snapshot& s, std::vector<float>& numbers) {
+    if (s.dimension == 2 || s.walls.size() <= most_triangles)
+        for (const WallShape& wall : s.walls) append_wall(wall, numbers);
+    if (s.dimension == 3)
+        for (const WallEdge& edge : replayed_edges(s.walls)) append_edge(edge, numbers);
 }
 
 template <class Vector> void put_vector(ByteWriter& writer, const Vector& values) {
@@ -78,10 +103,21 @@ ReplayFrame parse_frame(const std::string& bytes) {
     reader.get_array(f.angle);
     for (auto& level : f.level) reader.get_array(level);
     reader.get_array(f.walls);
-    bool whole = reader.at_end() && f.y.size() == f.size() && f.angle.size() == f.size();
+    if (!reader.at_end()) {
+        f.dimension = 3;
+        reader.get_array(f.z);
+    }
+    const bool space = f.dimension == 3;
+    bool whole = reader.at_end() && f.y.size() == f.size() && f.z.size() == (space ? f.size() : 0) &&
+                 f.angle.size() == (space ? 0 : f.size());
     for (const auto& level : f.level) whole = whole && level.size() == f.size();
-    if (!whole || f.walls.size() % wall_numbers != 0) fail(Exit::io, "arrays of different lengths");
+    if (!whole || f.walls.size() % wall_numbers(f.dimension) != 0)
+        fail(Exit::io, "arrays of different lengths");
     return f;
+}
+
+bool is_finite(Vec p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
 } // namespace
@@ -89,6 +125,7 @@ ReplayFrame parse_frame(const std::string& bytes) {
 ReplayFrame make_replay_frame(const Snapshot& s) {
     ReplayFrame f;
     f.time = s.time;
+    f.dimension = s.dimension;
     f.grains = static_cast<std::uint32_t>(s.size());
     f.every = std::bit_ceil(static_cast<std::uint32_t>((s.size() + most_replayed - 1) / most_replayed));
     std::array<std::vector<double>, 4> values;
@@ -97,14 +134,17 @@ ReplayFrame make_replay_frame(const Snapshot& s) {
         f.scale[k] = scale_of(values[k]);
     }
     for (std::size_t i = 0; i < s.size(); ++i) {
-        if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i]) || !sampled(s.id[i], f.every)) continue;
+        if (!is_finite(s.position(i)) || !sampled(s.id[i], f.every)) continue;
         f.x.push_back(place(s.x[i], s.lower.x, s.upper.x));
         f.y.push_back(place(s.y[i], s.lower.y, s.upper.y));
-        f.angle.push_back(turn(s.angle[i]));
+        if (s.dimension == 3)
+            f.z.push_back(place(s.z[i], s.lower.z, s.upper.z));
+        else
+            f.angle.push_back(turn(s.angle[i]));
         for (std::size_t k = 0; k < values.size(); ++k)
             f.level[k].push_back(level_of(values[k][i], f.scale[k]));
     }
-    for (const WallShape& wall : s.walls) append_wall(wall, f.walls);
+    append_walls(s, f.walls);
     return f;
 }
 
@@ -123,6 +163,7 @@ void ReplayWriter::format(const Snapshot& snapshot, std::string& bytes) const {
     put_vector(frame, f.angle);
     for (const auto& level : f.level) put_vector(frame, level);
     put_vector(frame, f.walls);
+    if (f.dimension == 3) put_vector(frame, f.z);
     ByteWriter record;
     record.put_text(frame.bytes());
     bytes += record.bytes();

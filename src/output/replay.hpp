@@ -1,5 +1,5 @@
-// replay.bin: the frames that report.html plays, quantised to nine bytes per grain. It grows with the run
-// like a trajectory, so that a resumed run keeps the frames before its checkpoint.
+// replay.bin: the frames that report.html plays, quantised to nine bytes per grain, ten in space. It grows
+// with the run like a trajectory, so that a resumed run keeps the frames before its checkpoint.
 #pragma once
 
 #include "output/single_file.hpp"
@@ -16,22 +16,27 @@ struct ReplayFrame {
     double time = 0;          // s
     std::uint32_t grains = 0; // in the run
     std::uint32_t every = 1;  // about one of so many is in this frame, a power of two
-    // Per grain in the frame. Position: 0 to 65535 between the edges of the domain; angle: a turn in 256
-    // steps.
-    std::vector<std::uint16_t> x, y;
+    int dimension = 2;
+    // Per grain in the frame. Position: 0 to 65535 between the edges of the domain, z in 3D; angle: a turn in
+    // 256 steps, in 2D.
+    std::vector<std::uint16_t> x, y, z;
     std::vector<std::uint8_t> angle;
     // Indexed by scene::Colour: value = scale (level/255)^2, which is finer where most values are.
     std::array<std::vector<std::uint8_t>, 4> level;
     std::array<float, 4> scale{};
-    // wall_numbers per wall: kind, then the ends of a segment | centre, radius, first and last angle of an
-    // arc | centre, radius, angle of a disc.
+    // wall_numbers() per wall: kind, then the ends of a segment | centre, radius, first and last angle of an
+    // arc | centre, radius, angle of a disc | corners of a triangle | ends of an edge of triangles.
     std::vector<float> walls;
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
 };
 
-inline constexpr std::size_t wall_numbers = 6;
+[[nodiscard]] constexpr std::size_t wall_numbers(int dimension) {
+    return dimension == 3 ? 10 : 6;
+}
 inline constexpr std::size_t most_replayed = 10000; // grains in a frame; of more, a fixed sample is kept
+// 3D. Walls of more triangles are replayed as their sharp edges; of more edges, the longest are kept.
+inline constexpr std::size_t most_triangles = 2000;
 
 // Grains without a finite position are left out; a value that is not finite counts as 0.
 [[nodiscard]] ReplayFrame make_replay_frame(const analysis::Snapshot& snapshot);

@@ -1,7 +1,8 @@
 // Frames as the page reads them (page/replay.js). Little-endian: time (float64), grains, grains in the frame
 // (uint32), four scales (float32), walls (uint32; unchanged: same as in the frame before) and their numbers
-// (float32); then planes of one byte per grain: x low, x high, y low, y high, angle, four levels. Planes hold
-// differences to the frame before: grains at rest become zeros, which deflate to nothing.
+// (float32); then planes of one byte per grain: x low, x high, y low, y high, in 2D angle, in 3D z low, z
+// high, four levels. Planes hold differences to the frame before: grains at rest become zeros, which deflate
+// to nothing.
 #include "core/error.hpp"
 #include "output/replay.hpp"
 
@@ -46,12 +47,13 @@ void put_frame(std::string& bytes, const ReplayFrame& f, const ReplayFrame& befo
     if (!first && f.walls == before.walls) {
         put(bytes, unchanged);
     } else {
-        put(bytes, static_cast<std::uint32_t>(f.walls.size() / wall_numbers));
+        put(bytes, static_cast<std::uint32_t>(f.walls.size() / wall_numbers(f.dimension)));
         for (const float number : f.walls) put(bytes, number);
     }
     put_planes(bytes, differences(f.x, before.x));
     put_planes(bytes, differences(f.y, before.y));
-    put_plane(bytes, differences(f.angle, before.angle));
+    put_planes(bytes, differences(f.z, before.z));
+    put_plane(bytes, differences(f.angle, before.angle)); // z or angle is empty
     for (std::size_t k = 0; k < f.level.size(); ++k)
         put_plane(bytes, differences(f.level[k], before.level[k]));
 }

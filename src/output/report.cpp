@@ -1,6 +1,7 @@
 #include "output/report.hpp"
 
 #include "core/file.hpp"
+#include "output/camera.hpp"
 #include "output/colours.hpp"
 #include "output/escape.hpp"
 #include "output/page.hpp"
@@ -26,8 +27,15 @@ std::string colour_map_digits() {
     return digits;
 }
 
-std::string json_pair(double first, double second) {
-    return fmt::format("[{}, {}]", json_number(first), json_number(second));
+std::string json_vector(Vec v, std::int64_t dimension) {
+    const std::string plane = json_number(v.x) + ", " + json_number(v.y);
+    return fmt::format("[{}]", dimension == 3 ? plane + ", " + json_number(v.z) : plane);
+}
+
+// Axes of the picture: to the right, up, towards the viewer.
+std::string json_camera(const Camera& camera) {
+    return fmt::format("[{}, {}, {}]", json_vector(camera.right, 3), json_vector(camera.up, 3),
+                       json_vector(camera.towards, 3));
 }
 
 // Column by column, so that a plot takes what it needs.
@@ -45,10 +53,10 @@ std::string log_data(const analysis::Log& log, std::size_t stride) {
     return text + "]";
 }
 
-std::string quantities(scene::Body body) {
+std::string quantities(std::int64_t dimension) {
     std::string text = "[";
     for (int k = 0; k < 4; ++k) {
-        const Quantity q = quantity(static_cast<scene::Colour>(k), body);
+        const Quantity q = quantity(static_cast<scene::Colour>(k), dimension);
         text += fmt::format("{}{{\"name\": {}, \"unit\": {}}}", k > 0 ? ", " : "", json_text(q.name),
                             json_text(q.unit));
     }
@@ -57,13 +65,14 @@ std::string quantities(scene::Body body) {
 
 std::string page_data(const ReportInput& input, std::size_t log_stride, const PackedReplay& replay) {
     const scene::Domain& d = input.scene.domain;
-    return fmt::format("{{\"lower\": {}, \"upper\": {}, \"periodic\": [{}, {}],\n\"quantities\": {}, "
-                       "\"colour\": {}, \"map\": \"{}\",\n\"frames\": {}, \"replayStride\": {}, "
-                       "\"logStride\": {}, \"log\": {}}}",
-                       json_pair(d.lower.x, d.lower.y), json_pair(d.upper.x, d.upper.y), d.periodic.at(0),
-                       d.periodic.at(1), quantities(input.scene.md.body),
-                       static_cast<int>(input.scene.output.colour), colour_map_digits(), replay.frames,
-                       replay.stride, log_stride, log_data(input.log, log_stride));
+    return fmt::format("{{\"dimension\": {}, \"lower\": {}, \"upper\": {}, \"periodic\": [{}, {}, {}], "
+                       "\"camera\": {},\n\"quantities\": {}, \"colour\": {}, \"map\": \"{}\",\n"
+                       "\"frames\": {}, \"replayStride\": {}, \"logStride\": {}, \"log\": {}}}",
+                       d.dimension, json_vector(d.lower, d.dimension), json_vector(d.upper, d.dimension),
+                       d.periodic[0], d.periodic[1], d.periodic[2], json_camera(camera_of(input.scene)),
+                       quantities(d.dimension), static_cast<int>(input.scene.output.colour),
+                       colour_map_digits(), replay.frames, replay.stride, log_stride,
+                       log_data(input.log, log_stride));
 }
 
 std::string summary_rows(const ReportInput& input) {

@@ -14,11 +14,13 @@
 
 namespace sandlane::scene {
 
-// The domain as a metric space: minimum image across periodic sides. In a plane z is 0.
+// The domain as a metric space: minimum image across periodic sides. In a plane z is 0. With a seam (Lees and
+// Edwards) the image beyond the upper y side stands `seam` further along x.
 struct Box {
     std::int64_t dimension;
     Vec lower, upper;
     std::array<bool, 3> periodic;
+    double seam = 0; // m
 
     explicit Box(const Domain& domain)
         : dimension(domain.dimension), lower(domain.lower), upper(domain.upper), periodic(domain.periodic) {}
@@ -27,13 +29,19 @@ struct Box {
     // From a to b.
     [[nodiscard]] Vec separation(Vec a, Vec b) const {
         Vec d = b - a;
+        d.x -= seam * crossings(a, b);
         if (periodic[0]) d.x -= size().x * std::nearbyint(d.x / size().x);
         if (periodic[1]) d.y -= size().y * std::nearbyint(d.y / size().y);
         if (periodic[2]) d.z -= size().z * std::nearbyint(d.z / size().z);
         return d;
     }
+    // How many periods along y the nearest image of b stands below b, seen from a.
+    [[nodiscard]] double crossings(Vec a, Vec b) const {
+        return periodic[1] ? std::nearbyint((b.y - a.y) / size().y) : 0.0;
+    }
     // Into [lower, upper) along periodic sides.
     [[nodiscard]] Vec wrapped(Vec p) const {
+        if (periodic[1]) p.x -= seam * std::floor((p.y - lower.y) / size().y);
         if (periodic[0]) p.x = wrap(p.x, lower.x, upper.x);
         if (periodic[1]) p.y = wrap(p.y, lower.y, upper.y);
         if (periodic[2]) p.z = wrap(p.z, lower.z, upper.z);
@@ -71,10 +79,14 @@ public:
         head = static_cast<std::int64_t>(next_.size()) - 1;
     }
 
-    // Calls body(number) for the points of the cell of p and of the cells around it, each once.
+    // Calls body(number) for the points of the cell of p and of the cells around it, each once. Across a seam
+    // columns are not neighbours any more: whole rows are looked at.
     template <class Body> void for_near(Vec p, const Body& body) const {
-        const auto [left, width] = span(column(p), columns_, box_.periodic[0]);
-        const auto [bottom, height] = span(row(p), rows_, box_.periodic[1]);
+        const std::int64_t own_row = row(p);
+        const bool beside_seam = box_.seam != 0 && (own_row == 0 || own_row == rows_ - 1);
+        const auto [left, width] =
+            beside_seam ? Span{0, columns_} : span(column(p), columns_, box_.periodic[0]);
+        const auto [bottom, height] = span(own_row, rows_, box_.periodic[1]);
         const auto [front, depth] = span(layer(p), layers_, box_.periodic[2]);
         for (std::int64_t l = front; l < front + depth; ++l)
             for (std::int64_t r = bottom; r < bottom + height; ++r)

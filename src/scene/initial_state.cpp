@@ -20,8 +20,9 @@ constexpr double legal_overlap = 0.05; // of the smaller radius (docs/physics.md
 
 class Checker {
 public:
-    Checker(const Scene& scene, const std::vector<GrainState>& grains, const std::vector<std::size_t>& from)
-        : scene_(scene), grains_(grains), population_(from), box_(scene.domain) {
+    Checker(const Scene& scene, const StandingWalls& walls, const std::vector<GrainState>& grains,
+            const std::vector<std::size_t>& from)
+        : scene_(scene), walls_(walls), grains_(grains), population_(from), box_(scene.domain) {
         for (const GrainState& g : grains) largest_ = std::max(largest_, g.radius);
     }
 
@@ -130,12 +131,11 @@ private:
     }
 
     void check_walls() const {
-        const StandingWalls walls(scene_);
         for (const GrainState& g : grains_) {
             if (std::isfinite(g.insert_at)) continue;
             const double allowed = (1 - legal_overlap) * g.radius;
-            walls.for_near(g.position, allowed, [&](std::size_t piece) {
-                refuse_wall(g, walls.gap(piece, g.position).distance, walls.wall(piece), allowed);
+            walls_.for_near(g.position, allowed, [&](std::size_t piece) {
+                refuse_wall(g, walls_.gap(piece, g.position).distance, walls_.wall(piece), allowed);
             });
         }
     }
@@ -144,13 +144,13 @@ private:
         const std::string& label = scene_.walls[static_cast<std::size_t>(wall)].name;
         fail(Exit::invalid_input,
              "{}: its centre ({}) m is {:.4g} m from the surface of walls[{}]{}; allowed: {:.4g} m or more "
-             "(95 "
-             "% of its radius {} m). Move the grain or the wall.",
+             "(95 % of its radius {} m). Move the grain or the wall.",
              name(g), text(g.position), distance, wall, label.empty() ? "" : fmt::format(" \"{}\"", label),
              allowed, g.radius);
     }
 
     const Scene& scene_;
+    const StandingWalls& walls_;
     const std::vector<GrainState>& grains_;
     const std::vector<std::size_t>& population_; // of each grain
     Box box_;
@@ -186,19 +186,20 @@ double grain_mass(const Scene& scene, const Grains& population, int material, do
 
 std::vector<GrainState> initial_grains(const Scene& scene) {
     check_number(scene);
+    const StandingWalls walls(scene);
     std::vector<GrainState> grains;
     std::vector<std::size_t> from;
     for (std::size_t p = 0; p < scene.grains.size(); ++p) {
         const std::size_t first = grains.size();
-        for (GrainState& g : population(scene, p, grains)) {
+        for (GrainState& g : population(scene, p, grains, walls)) {
             g.id = static_cast<std::int64_t>(grains.size());
             grains.push_back(g);
             from.push_back(p);
         }
-        const Checker checker(scene, grains, from);
+        const Checker checker(scene, walls, grains, from);
         for (std::size_t i = first; i < grains.size(); ++i) checker.check_one(grains[i]);
     }
-    if (!grains.empty()) Checker(scene, grains, from).check();
+    if (!grains.empty()) Checker(scene, walls, grains, from).check();
     return grains;
 }
 

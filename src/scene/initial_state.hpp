@@ -11,11 +11,12 @@ namespace sandlane::scene {
 
 struct GrainState {
     std::int64_t id = 0;
-    Vec position, velocity;                                      // z: unused in 2D
-    double angle = 0, omega = 0;                                 // 2D
-    Vec angular_velocity;                                        // 3D, rad/s in the frame of space
-    double radius = 0, mass = 0;                                 // m, kg
-    int material = 0;                                            // index into Scene::materials
+    Vec position, velocity;      // z: unused in 2D
+    double angle = 0, omega = 0; // 2D
+    Vec angular_velocity;        // 3D, rad/s in the frame of space
+    double radius = 0, mass = 0; // m, kg
+    int material = 0;            // index into Scene::materials
+    int factory = -1; // its population, where the place is drawn anew at every attempt to insert it
     double insert_at = -std::numeric_limits<double>::infinity(); // pour: time of insertion, s
 };
 

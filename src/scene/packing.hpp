@@ -23,9 +23,9 @@ struct PackingTask {
     Box box;          // the whole domain
     Vec lower, upper; // region that holds the grains whole, except across a periodic side of the domain
     std::vector<double> radii;
-    std::vector<Ball> fixed; // grains that are there already
-    StandingWalls walls;     // to keep clear of
-    Random random;           // attempt a of grain i uses number a 2^32 + i
+    std::vector<Ball> fixed;    // grains that are there already
+    const StandingWalls& walls; // to keep clear of
+    Random random;              // attempt a of grain i uses number a 2^32 + i
 
     [[nodiscard]] std::int64_t dimension() const { return box.dimension; }
     [[nodiscard]] Vec size() const { return upper - lower; }

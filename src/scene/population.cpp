@@ -41,16 +41,17 @@ public:
         prototype_.angular_velocity = grains_.angular_velocity;
     }
 
-    std::vector<GrainState> make(const std::vector<GrainState>& placed) const {
+    std::vector<GrainState> make(const std::vector<GrainState>& placed, const StandingWalls& walls) const {
         std::vector<GrainState> grains;
         switch (grains_.kind) {
         case GrainKind::lattice:
             grains = lattice();
             break;
         case GrainKind::random:
-            grains = random(placed);
+            grains = random(placed, walls);
             break;
         case GrainKind::pour:
+        case GrainKind::factory:
             grains = pour();
             break;
         case GrainKind::list:
@@ -105,9 +106,10 @@ private:
                 static_cast<double>(layer)};
     }
 
-    [[nodiscard]] std::vector<GrainState> random(const std::vector<GrainState>& placed) const {
-        PackingTask task{name_, Box(scene_.domain),    region_.lower,           region_.upper, random_radii(),
-                         {},    StandingWalls(scene_), stream(Stream::position)};
+    [[nodiscard]] std::vector<GrainState> random(const std::vector<GrainState>& placed,
+                                                 const StandingWalls& walls) const {
+        PackingTask task{name_, Box(scene_.domain),      region_.lower, region_.upper, random_radii(), {},
+                         walls, stream(Stream::position)};
         for (const GrainState& g : placed)
             if (!std::isfinite(g.insert_at)) task.fixed.push_back({g.position, g.radius});
         const std::vector<Vec> centres = pack(task);
@@ -139,6 +141,7 @@ private:
             const Vec u = uniform_point(place, static_cast<std::uint64_t>(n), dimension_);
             grains.push_back(grain(region_.lower + scaled(u, region_.size()), radius(grains.size())));
             grains.back().insert_at = grains_.start + static_cast<double>(n) / grains_.rate;
+            if (grains_.kind == GrainKind::factory) grains.back().factory = static_cast<int>(index_);
         }
         return grains;
     }
@@ -202,6 +205,7 @@ double expected_grains(const Scene& scene, std::size_t index) {
                    grain_content(std::sqrt(g.sizes.min * g.sizes.max), dimension);
         return static_cast<double>(g.count);
     case GrainKind::pour:
+    case GrainKind::factory:
         return static_cast<double>(g.count);
     case GrainKind::list:
         return static_cast<double>(g.items.size());
@@ -211,14 +215,21 @@ double expected_grains(const Scene& scene, std::size_t index) {
     return 0;
 }
 
+Vec factory_place(const Scene& scene, std::size_t index, std::int64_t id, std::uint64_t attempt) {
+    const Region where = region(scene, scene.grains[index]);
+    const Random place(static_cast<std::uint64_t>(scene.seed), Stream::factory,
+                       static_cast<std::uint32_t>(id));
+    return where.lower + scaled(uniform_point(place, attempt, scene.domain.dimension), where.size());
+}
+
 std::string population_name(const Scene& scene, std::size_t index) {
     const std::string& name = scene.grains[index].name;
     return name.empty() ? fmt::format("grains[{}]", index) : fmt::format("grains[{}] \"{}\"", index, name);
 }
 
 std::vector<GrainState> population(const Scene& scene, std::size_t index,
-                                   const std::vector<GrainState>& placed) {
-    return Maker(scene, index).make(placed);
+                                   const std::vector<GrainState>& placed, const StandingWalls& walls) {
+    return Maker(scene, index).make(placed, walls);
 }
 
 } // namespace sandlane::scene

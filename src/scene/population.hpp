@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/initial_state.hpp"
+#include "scene/standing_walls.hpp"
 
 #include <cstdint>
 #include <string>
@@ -9,9 +10,11 @@
 
 namespace sandlane::scene {
 
-// `placed`: the grains of the populations before this one; random ones keep clear of them. Ids are left 0.
+// `placed`: the grains of the populations before this one; random ones keep clear of them and of the walls.
+// Ids are left 0.
 [[nodiscard]] std::vector<GrainState> population(const Scene& scene, std::size_t index,
-                                                 const std::vector<GrainState>& placed);
+                                                 const std::vector<GrainState>& placed,
+                                                 const StandingWalls& walls);
 
 // How many grains the population asks for, as far as the scene tells (a file: 0); with a packing fraction,
 // about.
@@ -27,5 +30,9 @@ namespace sandlane::scene {
 [[nodiscard]] std::vector<GrainState> parse_grains(const std::string& text, const std::string& file,
                                                    const Scene& scene, const Grains& grains,
                                                    const GrainState& prototype);
+
+// Where a factory's grain may come to be: the place that belongs to this attempt, below 2^63, to insert it.
+[[nodiscard]] Vec factory_place(const Scene& scene, std::size_t index, std::int64_t id,
+                                std::uint64_t attempt);
 
 } // namespace sandlane::scene

@@ -109,6 +109,8 @@ Scene scene_from(const Value& root) {
             read_list(scene.grains, grains_table(), value, key, dimension);
         else if (key == "walls")
             read_list(scene.walls, wall_table(), value, key, dimension);
+        else if (key == "sinks")
+            read_list(scene.sinks, sink_table(), value, key, dimension);
         else if (key == "motions")
             read_list(scene.motions, motion_table(), value, key, dimension);
         else if (key == "md")
@@ -120,8 +122,8 @@ Scene scene_from(const Value& root) {
         else
             rest.members.push_back({key, value});
     }
-    std::vector<std::string> known = {"domain",  "materials", "pairs",    "grains", "walls",
-                                      "motions", "md",        "analysis", "output"};
+    std::vector<std::string> known = {"domain", "materials", "pairs", "grains",   "walls",
+                                      "sinks",  "motions",   "md",    "analysis", "output"};
     for (const Field<Scene>& field : scene_table().fields()) known.push_back(field.name);
     for (const auto& [key, value] : rest.members) {
         bool found = false;
@@ -152,12 +154,21 @@ Scene parse_scene(std::string_view text, const std::string& name, const Override
 
 Scene read_scene(const std::filesystem::path& path, const Overrides& overrides) {
     Scene scene = parse_scene(read_file(path), path.string(), overrides);
-    const auto find = [&](std::string& file) { // a checkpoint is continued from another folder
-        if (!file.empty())
-            file = std::filesystem::absolute(path.parent_path() / file).lexically_normal().string();
+    const auto find = [&](std::string& file, const char* list, std::size_t n) {
+        if (file.empty()) return;
+        const std::string given = file;
+        file = std::filesystem::absolute(path.parent_path() / file).lexically_normal().string();
+        std::error_code unreadable;
+        if (!std::filesystem::exists(file, unreadable))
+            fail(
+                Exit::invalid_input,
+                "{}: {}[{}].file: \"{}\" does not exist; a name is relative to the folder of the scene file, "
+                "so this is {}",
+                path.string(), list, n, given, file);
     };
-    for (Grains& g : scene.grains) find(g.file);
-    for (Wall& w : scene.walls) find(w.file);
+    // Absolute names: a checkpoint is continued from another folder.
+    for (std::size_t n = 0; n < scene.grains.size(); ++n) find(scene.grains[n].file, "grains", n);
+    for (std::size_t n = 0; n < scene.walls.size(); ++n) find(scene.walls[n].file, "walls", n);
     return scene;
 }
 
@@ -169,6 +180,7 @@ std::string write_scene(const Scene& scene) {
     write_list(text, "pairs", pair_table(), scene.pairs, dimension);
     write_list(text, "grains", grains_table(), scene.grains, dimension);
     write_list(text, "walls", wall_table(), scene.walls, dimension);
+    write_list(text, "sinks", sink_table(), scene.sinks, dimension);
     write_list(text, "motions", motion_table(), scene.motions, dimension);
     text += "\n[md]\n" + md_table().write(scene.md, dimension);
     write_list(text, "analysis", analysis_table(), scene.analyses, dimension);

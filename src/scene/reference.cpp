@@ -65,8 +65,9 @@ std::string scene_reference() {
            domain_table().reference("[domain]") + material_table().reference("[[materials]]") +
            pair_table().reference("[[pairs]]") + grains_table().reference("[[grains]]") +
            item_table().reference("items of [[grains]] and [[walls]]") + wall_table().reference("[[walls]]") +
-           motion_table().reference("[[motions]]") + md_table().reference("[md]") +
-           analysis_table().reference("[[analysis]]") + output_table().reference("[output]");
+           sink_table().reference("[[sinks]]") + motion_table().reference("[[motions]]") +
+           md_table().reference("[md]") + analysis_table().reference("[[analysis]]") +
+           output_table().reference("[output]");
 }
 
 } // namespace sandlane::scene

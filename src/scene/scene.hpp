@@ -30,7 +30,7 @@ enum class LeverArm {
     plane
 };                                    // R, or the distance to the plane of the contact (docs/physics.md 2)
 enum class Outside { error, remove }; // what happens to a grain that leaves an open side of the domain
-enum class GrainKind { lattice, random, pour, list, file };
+enum class GrainKind { lattice, random, pour, factory, list, file };
 enum class SizeLaw { constant, uniform, inverse_square, lognormal };
 // plane, segment, polyline, arc, grains: 2D; plane, box, cylinder, cone, mesh: 3D.
 enum class WallKind { plane, segment, polyline, arc, grains, box, cylinder, cone, mesh };
@@ -45,6 +45,7 @@ struct Domain {
     std::array<bool, 3> periodic{};
     Vec gravity; // 2D: z is the angular acceleration G_phi of the book's files
     Outside outside = Outside::remove;
+    double shear_rate = 0; // 1/s: Lees-Edwards, d v_x/d y of the periodic images
 };
 
 // One material; a law reads only its own coefficients. Mixing rules: docs/physics.md 5.
@@ -116,6 +117,13 @@ struct Grains {
     std::vector<GrainItem> items;
 };
 
+// Grains whose centres lie in a box when it is looked at, every 256 steps, are removed and counted.
+struct Sink {
+    std::string name;
+    Vec lower, upper;
+    double start = 0; // s
+};
+
 // A wall; several elements of one wall share material and motion.
 struct Wall {
     std::string name;
@@ -169,6 +177,7 @@ struct Md {
     Body body = Body::sphere;
     bool cut = true; // normal forces end at zero: contacts do not pull
     LeverArm lever_arm = LeverArm::undeformed;
+    bool orientation = false; // 3D: follows the orientations of the grains
 };
 
 enum class Axis { x, y, z };
@@ -203,8 +212,7 @@ struct Output {
     std::vector<Trajectory> trajectory{Trajectory::dump};
     Colour colour = Colour::speed;
     std::int64_t picture_width = 800; // pixels
-    // 3D pictures: azimuth about the upward direction and elevation of the viewer, degrees
-    std::array<double, 2> view{25, 20};
+    Vec view;                         // 3D: direction to the viewer of pictures; 0: chosen by gravity
     bool movie = true;
     bool report = true;
 };
@@ -219,6 +227,7 @@ struct Scene {
     std::vector<MaterialPair> pairs;
     std::vector<Grains> grains;
     std::vector<Wall> walls;
+    std::vector<Sink> sinks;
     std::vector<Motion> motions;
     Md md;
     std::vector<AnalysisSpec> analyses;

@@ -84,6 +84,9 @@ const Table<Domain>& domain_table() {
                      "directions in which a grain that leaves comes back on the other side", false,
                      read_periodic, write_periodic, "list of `\"x\"`, `\"y\"`, `\"z\"`"})
             .vector("gravity", &Domain::gravity, Unit::acceleration, "acceleration of gravity")
+            .number("shear_rate", &Domain::shear_rate, Unit::rate, any,
+                    "shear flow without walls (Lees and Edwards): d v_x/d y of the images beyond the periodic y "
+                    "sides; the grains start with this profile added to their velocities, zero in the middle")
             .choice(
                 "outside", &Domain::outside, {"error", "remove"},
                 "a grain whose centre leaves through an open side ends the run, or is removed and counted");
@@ -170,6 +173,10 @@ const Table<Md>& md_table() {
                 "lever_arm", &Md::lever_arm, {"undeformed", "plane"},
                 "lever arm of tangential forces: the radius, or the distance to the plane of the contact, "
                 "which conserves the angular momentum of pairs")
+            .flag("orientation", &Md::orientation,
+                  "follows the orientations of the grains, as quaternions in trajectories that have them; no "
+                  "force depends on them")
+            .only(3, "the angle of the grains, which is always followed with friction")
             .choice("tangential", &Md::tangential, tangential_choices(), "tangential force")
             .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6", "velocity-verlet"},
                     "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet")
@@ -197,18 +204,16 @@ const Table<AnalysisSpec>& analysis_table() {
     static const Table<AnalysisSpec> table =
         Table<AnalysisSpec>(
             "What a run measures of its grains; each writes `NAME.csv`. flow, force-chains, mixing and "
-            "stress "
-            "add a row per frame; profile, pair-correlation and map average over frames: their tables are "
-            "written with "
-            "every checkpoint and at the end, maps as pictures `NAME-*.png` too. A pressure is a force per "
-            "length in the plane, N/m, and in space a force per area, Pa.")
+            "stress add a row per frame; profile, pair-correlation and map average over frames: their tables "
+            "are written with every checkpoint and at the end, maps as pictures `NAME-*.png` too. A pressure "
+            "is a force per length in the plane, N/m, and in space a force per area, Pa.")
             .text("name", &AnalysisSpec::name, "name of the files")
             .required()
             .choice(
                 "kind", &AnalysisSpec::kind, kinds,
-                "strips across an axis; g(r); force chains; bins in the plane; what crosses a line, in 3D a "
-                "rectangle; stress tensor, contact number and packing fraction of a region; how well "
-                "two populations are mixed")
+                "strips across an axis; g(r); force chains; bins in the plane, in 3D columns along an axis; "
+                "what crosses a line, in 3D a rectangle; stress tensor, contact number and packing fraction "
+                "of a region; how well two populations are mixed")
             .required()
             .number("every", &AnalysisSpec::every, Unit::time, not_negative(),
                     "time between frames; 0: duration/100")
@@ -222,8 +227,10 @@ const Table<AnalysisSpec>& analysis_table() {
                 "flow: where the line ends, from its left to its right counts positive; in 3D the opposite "
                 "corner, with one coordinate equal to that of from: along this axis counts positive; else: "
                 "the other corner, the same as from: the whole domain")
-            .choice("axis", &AnalysisSpec::axis, axis_choices(3),
-                    "profile: axis across the strips; mixing: axis across the sides; \"z\" in 3D only")
+            .choice(
+                "axis", &AnalysisSpec::axis, axis_choices(3),
+                "profile: axis across the strips; 3D map: axis along the columns; mixing: axis across the "
+                "sides; \"z\" in 3D only")
             .integer(
                 "bins", &AnalysisSpec::bins, between(0, 4096),
                 "profile: strips (0: 50); pair-correlation: distances (0: 100); map: columns (0: one "
@@ -254,6 +261,11 @@ const Table<Output>& output_table() {
             .choice("colour", &Output::colour, colour_choices(), "colour of the grains")
             .integer("picture_width", &Output::picture_width, between(64, 16384),
                      "width of pictures in pixels")
+            .vector(
+                "view", &Output::view, Unit::none,
+                "pictures: direction to the viewer, for example [0, -1, 0] from the front, [0, 0, 1] from "
+                "above; [0, 0, 0]: from the front, turned a little and raised, with up against gravity")
+            .only(3)
             .flag("movie", &Output::movie, "movie.mp4, if ffmpeg is installed")
             .flag("report", &Output::report, "report.html: plots and a replay");
     return table;

@@ -107,6 +107,7 @@ const Table<MaterialPair>& pair_table();
 const Table<Grains>& grains_table();
 const Table<GrainItem>& item_table();
 const Table<Wall>& wall_table();
+const Table<Sink>& sink_table();
 const Table<Motion>& motion_table();
 const Table<Md>& md_table();
 const Table<AnalysisSpec>& analysis_table();

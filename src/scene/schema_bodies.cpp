@@ -105,17 +105,30 @@ const Table<GrainItem>& item_table() {
     return table;
 }
 
+const Table<Sink>& sink_table() {
+    static const Table<Sink> table =
+        Table<Sink>(
+            "Boxes that grains vanish in: every 256 steps those whose centre lies inside are removed, and "
+            "counted as those that leave the domain.")
+            .text("name", &Sink::name, "shown in messages")
+            .vector("lower", &Sink::lower, Unit::length, "lower left corner")
+            .required()
+            .vector("upper", &Sink::upper, Unit::length, "upper right corner")
+            .required()
+            .number("start", &Sink::start, Unit::time, not_negative(), "closed before this time");
+    return table;
+}
+
 const Table<Grains>& grains_table() {
     static const Table<Grains> table =
         Table<Grains>("Populations of free grains, in the order of their ids.")
             .text("name", &Grains::name, "shown in messages")
             .text("material", &Grains::material, "name of a material; may be left out if there is one")
-            .choice("kind", &Grains::kind, {"lattice", "random", "pour", "list", "file"},
+            .choice("kind", &Grains::kind, {"lattice", "random", "pour", "factory", "list", "file"},
                     "lattice: columns and rows (and layers); random: anywhere in the region without "
-                    "overlaps; pour: one "
-                    "after the other "
-                    "while the run goes on, each as soon as there is room; list: as given in items; file: "
-                    "from a file")
+                    "overlaps; pour: one after the other while the run goes on, each at its place as soon as "
+                    "there is room; factory: the same, but each attempt draws a new place in the region; "
+                    "list: as given in items; file: from a file")
             .custom({"radius", "number or `{ law, min, max }`", "m", "above 0",
                      "radius, or a distribution: law `\"uniform\"`, `\"inverse-square\"` (pdf ~ 1/R^2) or "
                      "`\"lognormal\"` between min and max",
@@ -136,12 +149,13 @@ const Table<Grains>& grains_table() {
             .only(3, "triangular")
             .number("jitter", &Grains::jitter, Unit::none, between(0, 1),
                     "lattice: random displacement in units of the spacing")
-            .integer("count", &Grains::count, between(0, 1e9), "random, pour: number of grains")
+            .integer("count", &Grains::count, between(0, 1e9), "random, pour, factory: number of grains")
             .number("packing_fraction", &Grains::packing_fraction, Unit::none, between(0, 0.9),
                     "random: covered part of the region, in 3D of its volume, instead of count; spheres can "
                     "be packed up to about 0.6")
-            .number("start", &Grains::start, Unit::time, not_negative(), "pour: time of the first grain")
-            .number("rate", &Grains::rate, Unit::rate, not_negative(), "pour: grains per second")
+            .number("start", &Grains::start, Unit::time, not_negative(),
+                    "pour, factory: time of the first grain")
+            .number("rate", &Grains::rate, Unit::rate, not_negative(), "pour, factory: grains per second")
             .vector("velocity", &Grains::velocity, Unit::speed, "initial velocity")
             .number("thermal_speed", &Grains::thermal_speed, Unit::speed, not_negative(),
                     "standard deviation of each velocity component")

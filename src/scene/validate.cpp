@@ -61,6 +61,25 @@ struct Validator {
                    text(scene.domain.upper), text(scene.domain.lower), spatial ? "all" : "both");
     }
 
+    void check_shear() const {
+        const Domain& d = scene.domain;
+        if (d.shear_rate == 0) return;
+        if (!std::isfinite(d.shear_rate)) reject("domain.shear_rate: {} is no number", d.shear_rate);
+        if (!d.periodic[0] || !d.periodic[1])
+            reject("domain.shear_rate: {} needs periodic = [\"x\", \"y\"]: the flow is along x and its images "
+                   "stand beyond the y sides",
+                   d.shear_rate);
+        if (d.gravity.x != 0 || d.gravity.y != 0)
+            reject("domain.shear_rate: {} and gravity [{}]: a sheared cell falls along x and y; leave gravity out",
+                   d.shear_rate, text(d.gravity));
+        const NeighbourMethod m = scene.md.neighbours;
+        if (m != NeighbourMethod::automatic && m != NeighbourMethod::verlet)
+            reject("md.neighbours: \"{}\" cannot follow domain.shear_rate; use \"auto\" or \"verlet\"",
+                   neighbour_choices()[static_cast<std::size_t>(m)]);
+        for (std::size_t n = 0; n < scene.walls.size(); ++n)
+            reject("walls[{}]: a cell with domain.shear_rate has no walls", n);
+    }
+
     // Choices that mean something in the plane only.
     void check_method() const {
         if (!spatial) return;
@@ -152,19 +171,30 @@ struct Validator {
                    n, m.rolling_friction);
     }
 
+    static bool comes_later(const Grains& g) {
+        return g.kind == GrainKind::pour || g.kind == GrainKind::factory;
+    }
+
+    void check_sinks() const {
+        for (std::size_t n = 0; n < scene.sinks.size(); ++n) {
+            const Sink& s = scene.sinks[n];
+            if (!all_components(s.upper - s.lower, is_positive))
+                reject("sinks[{}].upper: [{}] must lie above lower = [{}]", n, text(s.upper), text(s.lower));
+        }
+    }
+
     void check_grains(const Grains& g, const std::string& path) const {
         material_exists(g.material, path);
-        const bool sized =
-            g.kind == GrainKind::lattice || g.kind == GrainKind::random || g.kind == GrainKind::pour;
+        const bool sized = g.kind == GrainKind::lattice || g.kind == GrainKind::random || comes_later(g);
         if (sized && !(g.sizes.min > 0)) reject("{}.radius: is missing", path);
         const bool several = std::ranges::any_of(g.counts, [](std::int64_t n) { return n > 1; });
         if (g.kind == GrainKind::lattice && several && !all_components(g.spacing, is_positive))
             reject("{}.spacing: [{}] must be above 0 in {} directions", path, text(g.spacing),
                    spatial ? "all" : "both");
-        if (g.kind == GrainKind::pour && !(g.rate > 0))
+        if (comes_later(g) && !(g.rate > 0))
             reject("{}.rate: {} must be above 0 grains per second", path, g.rate);
         if (g.kind == GrainKind::file && g.file.empty()) reject("{}.file: is missing", path);
-        const bool in_region = g.kind == GrainKind::random || g.kind == GrainKind::pour;
+        const bool in_region = g.kind == GrainKind::random || comes_later(g);
         if (in_region && !all_components(g.upper - g.lower, [](double length) { return length >= 0; }))
             reject("{}.upper: [{}] must not lie below lower = [{}]", path, text(g.upper), text(g.lower));
     }
@@ -350,7 +380,9 @@ void validate(const Scene& scene, const std::string& file) {
     const Validator v{scene, file};
     v.check_domain();
     v.check_method();
+    v.check_shear();
     v.check_materials();
+    v.check_sinks();
     for (std::size_t n = 0; n < scene.grains.size(); ++n)
         v.check_grains(scene.grains[n], fmt::format("grains[{}]", n));
     for (std::size_t n = 0; n < scene.walls.size(); ++n)

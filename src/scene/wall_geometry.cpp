@@ -54,21 +54,6 @@ std::vector<GrainItem> row(const Wall& wall) {
     return grains;
 }
 
-bool stands_as_given(const Motion& m) {
-    switch (m.kind) {
-    case MotionKind::fixed:
-        return true;
-    case MotionKind::linear:
-    case MotionKind::rotate:
-        return m.start == 0;
-    case MotionKind::oscillate:
-        return m.start == 0 && m.phase == 0 && m.wave == Wave::sine;
-    case MotionKind::planetary:
-        return m.start == 0 && m.orbit_radius == 0;
-    }
-    return false;
-}
-
 void add_pieces(std::vector<WallPiece>& pieces, const Wall& wall, int index) {
     WallPiece piece;
     piece.wall = index;
@@ -171,6 +156,21 @@ Gap gap(const WallPiece& piece, Vec p) {
     return {};
 }
 
+bool stands_as_given(const Motion& m) {
+    switch (m.kind) {
+    case MotionKind::fixed:
+        return true;
+    case MotionKind::linear:
+    case MotionKind::rotate:
+        return m.start == 0;
+    case MotionKind::oscillate:
+        return m.start == 0 && m.phase == 0 && m.wave == Wave::sine;
+    case MotionKind::planetary:
+        return m.start == 0 && m.orbit_radius == 0;
+    }
+    return false;
+}
+
 std::vector<WallPiece> walls_at_start(const Scene& scene) {
     std::vector<WallPiece> pieces;
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
@@ -184,12 +184,6 @@ std::vector<WallPiece> walls_at_start(const Scene& scene) {
 Gap gap(const SurfacePiece& piece, Vec p) {
     if (const auto* plane = std::get_if<PlanePiece>(&piece)) return {distance_from(piece, p), plane->normal};
     return from_point(p, closest_point(piece, p));
-}
-
-SurfacesAtStart::SurfacesAtStart(const Scene& scene) : surfaces_(scene) {
-    standing_.push_back(Surfaces::frame_of(-1));
-    for (std::size_t m = 0; m < scene.motions.size(); ++m)
-        if (stands_as_given(scene.motions[m])) standing_.push_back(Surfaces::frame_of(static_cast<int>(m)));
 }
 
 } // namespace sandlane::scene

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "scene/scene.hpp"
-#include "scene/surfaces.hpp"
+#include "scene/surface_pieces.hpp"
 
-#include <cstddef>
 #include <vector>
 
 namespace sandlane::scene {
@@ -31,28 +30,12 @@ struct Gap {
 };
 [[nodiscard]] Gap gap(const WallPiece& piece, Vec p);
 
-// All walls that stand at t = 0 where the scene puts them; a motion that has already displaced its walls at
-// t = 0 (planetary, a cosine, a phase) leaves them out.
-[[nodiscard]] std::vector<WallPiece> walls_at_start(const Scene& scene);
-
-// The same walls in 3D, where their pieces are many.
+// Distance of a surface in space; of both sides but for a plane.
 [[nodiscard]] Gap gap(const SurfacePiece& piece, Vec p);
-class SurfacesAtStart {
-public:
-    explicit SurfacesAtStart(const Scene& scene);
 
-    // Calls body(gap, wall) for the pieces closer than `reach` to p; wall: index in Scene::walls.
-    template <class Body> void for_near(Vec p, double reach, const Body& body) const {
-        for (const std::size_t frame : standing_)
-            surfaces_.for_near(frame, p, reach, [&](std::uint32_t n) {
-                const Gap g = gap(surfaces_.piece(n), p);
-                if (g.distance < reach) body(g, surfaces_.wall(n));
-            });
-    }
-
-private:
-    Surfaces surfaces_;
-    std::vector<std::size_t> standing_; // frames
-};
+// Whether walls with this motion are at t = 0 where the scene puts them.
+[[nodiscard]] bool stands_as_given(const Motion& motion);
+// The walls of a scene in the plane that are.
+[[nodiscard]] std::vector<WallPiece> walls_at_start(const Scene& scene);
 
 } // namespace sandlane::scene

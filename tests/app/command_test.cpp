@@ -57,6 +57,14 @@ TEST_F(Commands, CompareFindsTheSameBits) {
     EXPECT_EQ(d["state_hash"][0], d["state_hash"][1]);
 }
 
+TEST_F(Commands, CompareInSpaceLooksAtAllComponents) {
+    write("cube.toml", cube_scene);
+    const std::string table = run_well({"compare", "cube.toml", "--steps", "20"}).out;
+    for (const char* quantity : {"\nz ", "\nvz ", "\nomega_x ", "\nomega_y ", "\nomega_z ", "\npressure "})
+        EXPECT_SAYS(table, quantity);
+    EXPECT_SAYS(table, "identical, bit for bit");
+}
+
 TEST_F(Commands, Bench) {
     const json d =
         json::parse(run_well({"bench", "scene.toml", "--steps", "50", "--threads", "2", "--json"}).out);
@@ -83,6 +91,24 @@ TEST_F(Commands, Render) {
     }
     run_well({"render", "scene.toml", "b.png"});
     EXPECT_EQ(read("b.png").substr(16, 4), std::string("\0\0\0\x40", 4)); // as the scene says
+}
+
+TEST_F(Commands, RenderInSpaceFromAnyDirection) {
+    write("cube.toml", cube_scene);
+    std::set<std::string> pictures;
+    for (const char* view : {"0,-1,0", "0,0,1", "1,2,3"}) {
+        run_well({"render", "cube.toml", "a.png", "--view", view});
+        pictures.insert(read("a.png"));
+    }
+    EXPECT_EQ(pictures.size(), 3U);
+    write("top.toml", replaced(cube_scene, "[output]\n", "[output]\nview = [0, 0, 1]\n"));
+    run_well({"render", "top.toml", "top.png"});
+    run_well({"render", "cube.toml", "a.png", "--view", "0,0,1"});
+    EXPECT_EQ(read("a.png"), read("top.png"));
+    const Outcome o = run({"render", "scene.toml", "plane.png", "--view", "0,0,1"});
+    EXPECT_EQ(o.code, code_of(Exit::invalid_input));
+    EXPECT_SAYS(o.err, "--view goes with three-dimensional scenes only");
+    EXPECT_FALSE(fs::exists(path("plane.png")));
 }
 
 // ---- convert
@@ -163,6 +189,7 @@ TEST_F(Commands, ConvertRefusesWhatItCannotSay) {
     write("soft.book", "#lx: 1\n#ly: 1\n0.5 0.5 0 0 0 0 0.1 1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n");
     write("linear.toml", replaced(replaced(box_scene, "[md]\n", "[md]\nnormal = \"linear-dashpot\"\n"),
                                   "young = \"10 MPa\"", "stiffness = \"1 kN/m\""));
+    write("cube.toml", cube_scene);
     const auto before = listing();
     const auto refused = [&](std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), "convert");
@@ -177,6 +204,7 @@ TEST_F(Commands, ConvertRefusesWhatItCannotSay) {
     EXPECT_SAYS(refused({"scene.toml", "b.toml", "--snapshot"}), "--snapshot goes with");
     EXPECT_SAYS(refused({"soft.book", "b.toml"}), "materials[0].young: 0 is out of range");
     EXPECT_SAYS(refused({"linear.toml", "b.book"}), "linear-dashpot");
+    EXPECT_SAYS(refused({"cube.toml", "b.book"}), "the book's format knows two dimensions only");
     EXPECT_SAYS(run_well({"convert", "scene.toml", "b.book"}).err, "1 walls are left out");
 }
 

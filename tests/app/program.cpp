@@ -175,6 +175,41 @@ movie = false
 report = false
 )";
 
+const std::string cube_scene = R"([domain]
+dimension = 3
+lower = [0, 0, 0]
+upper = ["40 mm", "40 mm", "40 mm"]
+gravity = [0, 0, -9.81]
+
+[[materials]]
+name = "glass"
+young = "10 MPa"
+dissipation = "50 us"
+friction = 0.5
+tangential_damping = "0.1 kg/s"
+
+[[grains]]
+kind = "lattice"
+radius = "4 mm"
+lower = ["8 mm", "8 mm", "3.9 mm"]
+counts = [3, 3, 3]
+spacing = ["8 mm", "8 mm", "8 mm"]
+velocity = [0.1, 0.2, -0.5]
+
+[[walls]]
+name = "floor"
+kind = "plane"
+points = [[0, 0, 0]]
+normal = [0, 0, 1]
+
+[md]
+duration = "2 ms"
+
+[output]
+picture_width = 64
+movie = false
+)";
+
 std::string replaced(std::string text, const std::string& piece, const std::string& by) {
     const std::size_t at = text.find(piece);
     EXPECT_NE(at, std::string::npos) << piece;

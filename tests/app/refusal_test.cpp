@@ -125,7 +125,7 @@ const BadScene bad_scenes[] = {
     {"MissingGrainFile",
      "kind = \"lattice\"",
      "kind = \"file\"\nfile = \"grains.csv\"",
-     {"grains.csv: no such file"}},
+     {"grains[0].file: \"grains.csv\" does not exist"}},
     {"BillionsOfBillions",
      counts,
      "counts = [1000000000, 1000000000]",

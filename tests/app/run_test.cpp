@@ -74,6 +74,19 @@ TEST_F(Runs, SummaryIsOneJsonObject) {
     EXPECT_EQ(read("out/summary.json"), o.out);
 }
 
+TEST_F(Runs, TheLogOfSpaceHasThreeComponents) {
+    write("cube.toml", cube_scene);
+    run_well({"run", "cube.toml", "--out", "out", "--quiet"});
+    const std::string log = read("out/log.csv"), header = log.substr(0, log.find('\n'));
+    for (const char* column : {"momentum_z[kg m/s]", "floor_force_z[N]", "floor_torque_x[N m]",
+                               "floor_torque_y[N m]", "floor_torque_z[N m]"})
+        EXPECT_SAYS(header, column);
+    EXPECT_EQ(header.find("floor_torque[N m]"), std::string::npos);
+    const std::size_t columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
+    EXPECT_EQ(columns, 19U + 7U);
+    EXPECT_SAYS(read("out/report.html"), "\"dimension\": 3");
+}
+
 TEST_F(Runs, StreamsCarryWhatWasAskedFor) {
     const Outcome usual = run_well({"run", "scene.toml", "--out", "a", "--steps", "5"});
     EXPECT_EQ(usual.out, "");

@@ -1,12 +1,11 @@
-// Pictures, decoded by libpng. The domain is found by its ground colour, grains are then where they must be.
 #include "output/picture.hpp"
 
 #include "output/colours.hpp"
+#include "output/image.hpp"
 #include "output/sample.hpp"
 #include "output/support.hpp"
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <cmath>
 
@@ -14,55 +13,6 @@ using namespace sandlane;
 using namespace sandlane::output;
 
 namespace {
-
-using Pixel = std::array<int, 3>;
-constexpr Pixel ground{246, 247, 249};
-
-class Image {
-public:
-    explicit Image(const std::filesystem::path& path) {
-        png_image image{};
-        image.version = PNG_IMAGE_VERSION;
-        EXPECT_NE(png_image_begin_read_from_file(&image, path.c_str()), 0) << image.message;
-        image.format = PNG_FORMAT_RGB;
-        bytes_.resize(PNG_IMAGE_SIZE(image));
-        EXPECT_NE(png_image_finish_read(&image, nullptr, bytes_.data(), 0, nullptr), 0) << image.message;
-        width = static_cast<int>(image.width);
-        height = static_cast<int>(image.height);
-        find_domain();
-    }
-    [[nodiscard]] Pixel at(int x, int y) const {
-        const unsigned char* p = &bytes_[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                              static_cast<std::size_t>(x))];
-        return {p[0], p[1], p[2]};
-    }
-    // Pixel at a place of a domain of which the ground shows at all edges, in units of its extent, y up.
-    [[nodiscard]] Pixel in_domain(double x, double y) const {
-        return at(static_cast<int>(left + x * (right - left)), static_cast<int>(bottom - y * (bottom - top)));
-    }
-
-    int width = 0, height = 0;
-    int left = 1 << 30, right = 0, top = 1 << 30, bottom = 0; // of the domain; right and bottom exclusive
-
-private:
-    void find_domain() {
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                if (at(x, y) == ground) {
-                    left = std::min(left, x);
-                    right = std::max(right, x + 1);
-                    top = std::min(top, y);
-                    bottom = std::max(bottom, y + 1);
-                }
-    }
-    std::vector<unsigned char> bytes_;
-};
-
-Image draw(const analysis::Snapshot& s, const PictureStyle& style) {
-    const sample::Folder folder("picture");
-    write_picture(folder / "p.png", s, style);
-    return Image(folder / "p.png");
-}
 
 analysis::Snapshot unit_box() {
     analysis::Snapshot s = sample::empty();
@@ -206,7 +156,34 @@ TEST(Colours, RoundUp) {
     EXPECT_EQ(largest_finite({2, NAN, 5, INFINITY, 1}), 5);
 }
 
-TEST(Colours, PressureOfDiscsIsAForcePerLength) {
-    EXPECT_EQ(quantity(scene::Colour::pressure, scene::Body::disc).unit, "N/m");
-    EXPECT_EQ(quantity(scene::Colour::pressure, scene::Body::sphere).unit, "Pa");
+TEST(Colours, OneGrainInAHundredDoesNotSetTheScale) {
+    std::vector<double> values(1000, 1.0);
+    std::fill_n(values.begin(), 10, 100.0);
+    EXPECT_EQ(usual_high(values), 1);
+    values[10] = 100;
+    EXPECT_EQ(usual_high(values), 100);
+    EXPECT_EQ(usual_high(std::vector<double>(99, 1.0)), 1);
+    EXPECT_EQ(usual_high({1, 2, 100}), 100); // of few, each counts
+    std::vector<double> resting(1000, 0.0);
+    resting[5] = 3;
+    EXPECT_EQ(usual_high(resting), 3); // nothing to compare with
+    std::vector<double> close(1000, 1.0);
+    close[5] = 1.2;
+    EXPECT_EQ(usual_high(close), 1.2);
+    EXPECT_EQ(usual_high({NAN, INFINITY}), 0);
+    EXPECT_EQ(usual_high({}), 0);
+}
+
+TEST(Picture, OneFastGrainDoesNotDarkenTheOthers) {
+    analysis::Snapshot s = unit_box();
+    for (int n = 0; n < 200; ++n)
+        sample::add_grain(s, 0.05 * (n % 20) + 0.025, 0.05 * (n / 20) + 0.025, 0.02, n == 0 ? 50 : 1.0, 0);
+    const Image image = draw(s, {});
+    expect_map_colour(image.in_domain(0.525, 0.025), 1);
+    expect_map_colour(image.in_domain(0.025, 0.025), 1);
+}
+
+TEST(Colours, PressureInAPlaneIsAForcePerLength) {
+    EXPECT_EQ(quantity(scene::Colour::pressure, 2).unit, "N/m");
+    EXPECT_EQ(quantity(scene::Colour::pressure, 3).unit, "Pa");
 }

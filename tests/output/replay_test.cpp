@@ -10,6 +10,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -28,6 +29,27 @@ analysis::Snapshot noise(int frame, int grains) {
                           number(i, 3), number(i, 4), 9 * number(i, 5), 99 * number(i, 6),
                           500 * number(i, 7));
     return s;
+}
+
+analysis::Snapshot noise_in_space(int frame, int grains) {
+    const analysis::Snapshot plane = noise(frame, grains);
+    analysis::Snapshot s = sample::empty_space(frame);
+    const Random random(7, Stream::position, static_cast<std::uint32_t>(frame));
+    for (std::size_t i = 0; i < plane.size(); ++i)
+        sample::add_sphere(s, {plane.x[i], plane.y[i], -0.05 + 0.2 * random.uniform(i)}, plane.radius[i],
+                           {plane.vx[i], plane.vy[i], 1}, {0, plane.omega[i], 2}, plane.pressure[i]);
+    return s;
+}
+
+// Strips of a folded sheet.
+std::vector<analysis::WallShape> sheet(int strips) {
+    std::vector<analysis::WallShape> walls;
+    for (int n = 0; n < strips; ++n) {
+        const double x = 0.1 * n, next = 0.1 * (n + 1), low = 0.1 * (n % 2), high = 0.1 * ((n + 1) % 2);
+        walls.push_back(sample::triangle({x, 0, low}, {next, 0, high}, {next, 1, high}));
+        walls.push_back(sample::triangle({x, 0, low}, {next, 1, high}, {x, 1, low}));
+    }
+    return walls;
 }
 
 std::string inflated(const std::string& bytes, std::size_t room) {
@@ -52,8 +74,9 @@ std::vector<Number> read_planes(ByteReader& reader, std::size_t count, const std
 }
 
 // As page/replay-data.js does it.
-ReplayFrame read_frame(ByteReader& reader, const ReplayFrame& before) {
+ReplayFrame read_frame(ByteReader& reader, const ReplayFrame& before, int dimension) {
     ReplayFrame f;
+    f.dimension = dimension;
     f.time = reader.get<double>();
     f.grains = reader.get<std::uint32_t>();
     const std::size_t count = reader.get<std::uint32_t>();
@@ -62,10 +85,14 @@ ReplayFrame read_frame(ByteReader& reader, const ReplayFrame& before) {
     if (walls == 0xFFFFFFFF)
         f.walls = before.walls;
     else
-        for (std::size_t n = 0; n < walls * wall_numbers; ++n) f.walls.push_back(reader.get<float>());
+        for (std::size_t n = 0; n < walls * wall_numbers(dimension); ++n)
+            f.walls.push_back(reader.get<float>());
     f.x = read_planes(reader, count, before.x);
     f.y = read_planes(reader, count, before.y);
-    f.angle = read_planes(reader, count, before.angle);
+    if (dimension == 3)
+        f.z = read_planes(reader, count, before.z);
+    else
+        f.angle = read_planes(reader, count, before.angle);
     for (std::size_t k = 0; k < 4; ++k) f.level[k] = read_planes(reader, count, before.level[k]);
     return f;
 }
@@ -75,10 +102,26 @@ void expect_same(const ReplayFrame& a, const ReplayFrame& b) {
     EXPECT_EQ(a.grains, b.grains);
     EXPECT_EQ(a.x, b.x);
     EXPECT_EQ(a.y, b.y);
+    EXPECT_EQ(a.dimension, b.dimension);
+    EXPECT_EQ(a.z, b.z);
     EXPECT_EQ(a.angle, b.angle);
     EXPECT_EQ(a.level, b.level);
     EXPECT_EQ(a.scale, b.scale);
     EXPECT_EQ(a.walls, b.walls);
+}
+
+void expect_unpacked(const std::vector<ReplayFrame>& frames) {
+    const PackedReplay packed = pack_replay(frames, 1'000'000);
+    EXPECT_EQ(packed.stride, 1U);
+    ASSERT_EQ(packed.frames, frames.size());
+    const std::string bytes = inflated(packed.bytes, 100'000);
+    ByteReader reader(bytes);
+    ReplayFrame before;
+    for (const ReplayFrame& frame : frames) {
+        before = read_frame(reader, before, frame.dimension);
+        expect_same(before, frame);
+    }
+    EXPECT_TRUE(reader.at_end());
 }
 
 } // namespace
@@ -166,17 +209,7 @@ TEST(Replay, PackedFramesUnpack) {
     frames.push_back(make_replay_frame(noise(6, 3)));
     frames.push_back(make_replay_frame(noise(7, 50)));
     frames.push_back(make_replay_frame(sample::empty(8)));
-    const PackedReplay packed = pack_replay(frames, 1'000'000);
-    EXPECT_EQ(packed.stride, 1U);
-    ASSERT_EQ(packed.frames, frames.size());
-    const std::string bytes = inflated(packed.bytes, 100'000);
-    ByteReader reader(bytes);
-    ReplayFrame before;
-    for (const ReplayFrame& frame : frames) {
-        before = read_frame(reader, before);
-        expect_same(before, frame);
-    }
-    EXPECT_TRUE(reader.at_end());
+    expect_unpacked(frames);
 }
 
 TEST(Replay, FramesAreThinnedToTheBudget) {
@@ -194,4 +227,71 @@ TEST(Replay, GrainsAtRestCostNothing) {
     const std::vector<ReplayFrame> frames(100, make_replay_frame(noise(0, 1000)));
     // One frame of noise is 9000 bytes that do not shrink, and headers; the other 99 together less than that.
     EXPECT_LT(pack_replay(frames, 1 << 30).bytes.size(), 18'000U);
+}
+
+// ---- in space
+
+TEST(ReplayInSpace, RoundingIsHalfAStep) {
+    const analysis::Snapshot s = noise_in_space(0, 500);
+    const ReplayFrame f = make_replay_frame(s);
+    ASSERT_EQ(f.size(), s.size());
+    ASSERT_EQ(f.z.size(), s.size());
+    EXPECT_TRUE(f.angle.empty());
+    const double slack = 1 + 1e-9; // of the computations here
+    for (std::size_t i = 0; i < s.size(); ++i)
+        EXPECT_NEAR(-0.05 + f.z[i] / 65535.0 * 0.2, s.z[i], 0.2 / 65535 / 2 * slack);
+}
+
+TEST(ReplayInSpace, SpeedAndSpinHaveThreeComponents) {
+    analysis::Snapshot s = sample::empty_space();
+    sample::add_sphere(s, {0.1, 0.05, 0}, 0.01, {2, 3, 6}, {1, 4, 8});
+    const ReplayFrame f = make_replay_frame(s);
+    EXPECT_EQ(f.level[0][0], std::lround(255 * std::sqrt(7.0 / f.scale[0])));
+    EXPECT_EQ(f.level[2][0], std::lround(255 * std::sqrt(9.0 / f.scale[2])));
+}
+
+TEST(ReplayInSpace, FileReadsBack) {
+    const sample::Folder folder("replay-space");
+    const auto frames = sample::frames(sample::space_row, 4);
+    ReplayWriter writer(folder.path());
+    for (const auto& frame : frames) writer.write(frame);
+    writer.write(sample::empty_space(9));
+    const auto read = read_replay(folder / "replay.bin");
+    ASSERT_EQ(read.size(), 5U);
+    for (std::size_t n = 0; n < 4; ++n) expect_same(read[n], make_replay_frame(frames[n]));
+    EXPECT_EQ(read[4].dimension, 3);
+}
+
+TEST(ReplayInSpace, PackedFramesUnpack) {
+    auto frames = sample::frames([](int n) { return make_replay_frame(sample::space_row(n)); }, 5);
+    frames.push_back(frames.back()); // walls that stand still
+    frames.push_back(make_replay_frame(noise_in_space(6, 50)));
+    frames.push_back(make_replay_frame(sample::empty_space(8)));
+    expect_unpacked(frames);
+}
+
+TEST(ReplayInSpace, BrokenNumbersAreLeftOut) {
+    analysis::Snapshot s = sample::space_row(1);
+    s.z[0] = NAN;
+    s.vz[1] = NAN;
+    const ReplayFrame f = make_replay_frame(s);
+    EXPECT_EQ(f.size(), s.size() - 1);
+    EXPECT_EQ(f.level[0][0], 0);
+}
+
+// Kinds 3 and 4 are triangles and edges.
+TEST(ReplayInSpace, WallsAreTrianglesAndEdgesOrOnlyEdges) {
+    const auto kinds = [](int strips) {
+        analysis::Snapshot s = sample::empty_space();
+        s.walls = sheet(strips);
+        const ReplayFrame f = make_replay_frame(s);
+        std::array<std::size_t, 5> count{};
+        for (std::size_t n = 0; n < f.walls.size(); n += wall_numbers(3))
+            ++count[static_cast<std::size_t>(f.walls[n])];
+        return count;
+    };
+    // Of each strip two triangles; two rims and the folds between, but no diagonals.
+    EXPECT_EQ(kinds(10), (std::array<std::size_t, 5>{0, 0, 0, 20, 31}));
+    EXPECT_EQ(kinds(1000), (std::array<std::size_t, 5>{0, 0, 0, 2000, 2000}));
+    EXPECT_EQ(kinds(1001), (std::array<std::size_t, 5>{0, 0, 0, 0, 2000}));
 }

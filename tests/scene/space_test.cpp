@@ -150,6 +150,8 @@ TEST(SpaceScene, ShapesNeedTheirKeys) {
                 "points 0 and 1 coincide");
     EXPECT_SAYS(wall("\"cone\"\npoints = [[0, 0, 0], [0, 0, 1]]\n"), "one of them must be above 0");
     EXPECT_SAYS(wall("\"mesh\"\n"), "walls[0].file: is missing; a mesh needs an STL file");
+    EXPECT_SAYS(wall("\"mesh\"\nfile = \"a.stl\"\nscale = 0\n"), "walls[0].scale: 0 is out of range");
+    EXPECT_SAYS(wall("\"cone\"\nradius = 1\npoints = [[0, 0, 1], [0, 0, 1]]\n"), "points 0 and 1 coincide");
     EXPECT_SAYS(wall("\"plane\"\npoints = [[0, 0, 0]]\n"), "walls[0].normal: is missing");
     EXPECT_SAYS(refusal_in_space("[[motions]]\nname = \"m\"\nkind = \"rotate\"\naxis = [0, 0, 0]\n"),
                 "motions[0].axis: [0, 0, 0] is no direction");

@@ -2,7 +2,6 @@
 #include "scene/surfaces.hpp"
 
 #include "scene/box_tree.hpp"
-#include "scene/wall_geometry.hpp"
 #include "support/stl_file.hpp"
 
 #include <gtest/gtest.h>
@@ -284,37 +283,4 @@ TEST(BoxTree, FindsWhatALookAtAllBoxesFinds) {
         EXPECT_EQ(found, expected);
     }
     BoxTree().for_near({}, 1, [](std::uint32_t) { FAIL(); });
-}
-
-TEST(SurfacesAtStart, GapsToWallsThatStandAsGiven) {
-    Wall floor;
-    floor.kind = WallKind::plane;
-    floor.points = {{0, 0, 0}};
-    floor.normal = {0, 0, 1};
-    Wall cube = mesh_wall("start", test::box_triangles({0, 0, 1}, {1, 1, 2}));
-    Wall elsewhere = floor;
-    elsewhere.motion = "away";
-    cube.motion = "turn";
-    Scene s = scene_of({floor, cube, elsewhere});
-    s.motions.resize(2);
-    s.motions[0].name = "away";
-    s.motions[0].kind = MotionKind::oscillate;
-    s.motions[0].wave = Wave::cosine; // stands aside at t = 0
-    s.motions[1].name = "turn";
-    s.motions[1].kind = MotionKind::rotate;
-    const SurfacesAtStart walls(s);
-    double to_floor = 1, to_cube = 1;
-    int planes = 0;
-    walls.for_near({0.5, 0.25, 0.6}, 1, [&](const Gap& g, int wall) {
-        (wall == 0 ? to_floor : to_cube) = std::min(wall == 0 ? to_floor : to_cube, g.distance);
-        planes += wall == 0 ? 1 : 0;
-        EXPECT_NE(wall, 2);
-    });
-    EXPECT_NEAR(to_floor, 0.6, rounding);
-    EXPECT_NEAR(to_cube, 0.4, rounding);
-    EXPECT_EQ(planes, 1);
-    walls.for_near({0.5, 0.5, -0.2}, 0.5, [&](const Gap& g, int) { // behind the floor
-        EXPECT_NEAR(g.distance, -0.2, rounding);
-        EXPECT_EQ(g.away, (Vec{0, 0, 1}));
-    });
 }

@@ -40,9 +40,17 @@ template <int dimension>
 void settle(const MotionView& view, std::int64_t i, double* record, MotionResult& result) {
     bool inside = true;
     double shift2 = 0;
+    for (int d = dimension - 1; d >= 0; --d) { // y before x, which a seam may change
+        if (!(view.period[d] > 0)) continue;
+        const std::int32_t before = view.image[d][i];
+        record[d] = wrap(record[d], view.lower[d], view.upper[d], view.period[d], view.image[d][i]);
+        if (d != 1 || !view.sheared) continue;
+        const double crossed = view.image[d][i] - before;
+        if (crossed == 0) continue;
+        record[0] -= crossed * view.seam;
+        record[dimension] -= crossed * view.seam_shift;
+    }
     for (int d = 0; d < dimension; ++d) {
-        if (view.period[d] > 0)
-            record[d] = wrap(record[d], view.lower[d], view.upper[d], view.period[d], view.image[d][i]);
         inside = inside && record[d] >= view.lower[d] && record[d] < view.upper[d];
         shift2 += record[dimension + d] * record[dimension + d];
     }

@@ -17,6 +17,12 @@ inline double nearest_image(double d, double half, double period) {
     return d;
 }
 
+// The image across a Lees-Edwards seam stands and moves along x.
+inline void cross_seam(const PairView& view, double dy, double& dx, double& shift) {
+    if (dy > view.half[1]) dx -= view.seam, shift -= view.seam_shift;
+    if (dy < -view.half[1]) dx += view.seam, shift += view.seam_shift;
+}
+
 // What one pair is to its law: field f of both records, subtracted or added.
 template <int dimension> struct Pair {
     double d[dimension], dv[dimension];
@@ -28,10 +34,16 @@ template <int dimension> struct Pair {
         using Fields = Record<dimension>;
         const double* a = view.records + std::ptrdiff_t{i} * record_fields;
         const double* b = view.records + std::ptrdiff_t{j} * record_fields;
+        double apart[dimension], shift[dimension];
+        for (int k = 0; k < dimension; ++k) {
+            apart[k] = b[k] - a[k];
+            shift[k] = b[dimension + k] - a[dimension + k];
+        }
+        if (view.sheared) cross_seam(view, apart[1], apart[0], shift[0]);
         square = 0;
         for (int k = 0; k < dimension; ++k) {
-            d[k] = nearest_image(b[k] - a[k], view.half[k], view.period[k]);
-            dv[k] = (b[dimension + k] - a[dimension + k]) * view.inverse_dt;
+            d[k] = nearest_image(apart[k], view.half[k], view.period[k]);
+            dv[k] = shift[k] * view.inverse_dt;
             square = k == 0 ? d[k] * d[k] : square + d[k] * d[k];
         }
         sum = b[Fields::radius] + a[Fields::radius];

@@ -109,20 +109,25 @@ template <class Body> void for_around(const CellView& cells, std::int32_t cell, 
                        layer = row_of_all / cells.count[1];
     for_neighbours(layer, cells.count[2], cells.periodic[2], [&](std::int32_t l) {
         for_neighbours(row, cells.count[1], cells.periodic[1], [&](std::int32_t r) {
-            for_neighbours(column, cells.count[0], cells.periodic[0], [&](std::int32_t c) {
+            const auto look_at = [&](std::int32_t c) {
                 const std::ptrdiff_t other = (std::ptrdiff_t{l} * cells.count[1] + r) * cells.count[0] + c;
                 for (std::int32_t n = cells.start[other]; n < cells.start[other + 1]; ++n) body(n);
-            });
+            };
+            if (cells.sheared && (r > row + 1 || r < row - 1))
+                for (std::int32_t c = 0; c < cells.count[0]; ++c) look_at(c);
+            else
+                for_neighbours(column, cells.count[0], cells.periodic[0], look_at);
         });
     });
 }
 
 template <int dimension>
 double square_distance(const CellView& cells, const PairView& view, std::int32_t a, std::int32_t b) {
-    double square = 0;
+    double apart[dimension], shift = 0, square = 0;
+    for (int d = 0; d < dimension; ++d) apart[d] = cells.position[d][b] - cells.position[d][a];
+    if (view.sheared) cross_seam(view, apart[1], apart[0], shift);
     for (int d = 0; d < dimension; ++d) {
-        const double x =
-            nearest_image(cells.position[d][b] - cells.position[d][a], view.half[d], view.period[d]);
+        const double x = nearest_image(apart[d], view.half[d], view.period[d]);
         square += x * x;
     }
     return square;

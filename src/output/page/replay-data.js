@@ -12,10 +12,11 @@ async function inflate(bytes) {
   return new Response(stream).arrayBuffer();
 }
 
-const wallKinds = ["segment", "arc", "disc"];
+const wallKinds = ["segment", "arc", "disc", "triangle", "edge"];
 
 class FrameReader {
-  constructor(buffer) {
+  constructor(buffer, dimension) {
+    this.dimension = dimension;
     this.view = new DataView(buffer);
     this.at = 0;
     this.before = { walls: [], planes: [] };
@@ -35,7 +36,7 @@ class FrameReader {
     const count = this.number("Uint32", 4);
     if (count === 0xffffffff) return this.before.walls;
     return Array.from({ length: count }, () => {
-      const [kind, ...numbers] = this.numbers(6);
+      const [kind, ...numbers] = this.numbers(this.dimension === 3 ? 10 : 6);
       return { kind: wallKinds[kind], numbers };
     });
   }
@@ -54,17 +55,18 @@ class FrameReader {
     const count = this.number("Uint32", 4);
     frame.scales = this.numbers(4);
     frame.walls = this.walls();
-    const kinds = [Uint16Array, Uint16Array, Uint8Array, Uint8Array, Uint8Array, Uint8Array, Uint8Array];
+    const third = this.dimension === 3 ? "z" : "angle";
+    const kinds = [Uint16Array, Uint16Array, third === "z" ? Uint16Array : Uint8Array, Uint8Array, Uint8Array, Uint8Array, Uint8Array];
     frame.planes = kinds.map((Values, n) => this.plane(count, this.before.planes[n], Values));
-    [frame.x, frame.y, frame.angle, ...frame.levels] = frame.planes;
+    [frame.x, frame.y, frame[third], ...frame.levels] = frame.planes;
     this.before = frame;
     return frame;
   }
 }
 
-async function readFrames(base64, count) {
+async function readFrames(base64, count, dimension) {
   if (count === 0) return [];
-  const reader = new FrameReader(await inflate(bytesOfBase64(base64)));
+  const reader = new FrameReader(await inflate(bytesOfBase64(base64)), dimension);
   return Array.from({ length: count }, () => reader.frame());
 }
 

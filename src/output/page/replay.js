@@ -14,7 +14,7 @@ class Replay {
     this.now = this.start;
     this.playing = false;
     byId("replay").hidden = false;
-    this.painter = new Painter(byId("view"), data, frames);
+    this.painter = makePainter(byId("view"), data, frames);
     this.makeControls();
     this.fit();
     this.showScale();
@@ -27,7 +27,9 @@ class Replay {
     byId("frame").max = this.frames.length - 1;
     byId("frame").addEventListener("input", () => this.seek(this.times[byId("frame").value]));
     byId("play").addEventListener("click", () => this.play(!this.playing));
-    byId("view").addEventListener("click", () => this.play(!this.playing));
+    byId("view").addEventListener("click", () => {
+      if (!this.painter.dragged) this.play(!this.playing);
+    });
     byId("view").addEventListener("keydown", (event) => this.key(event));
     window.addEventListener("resize", () => this.fit());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
@@ -81,8 +83,9 @@ class Replay {
   tellThinning() {
     const notes = [];
     const ratio = Math.max(...this.frames.map(sampleRatio));
-    if (ratio > 1) notes.push(`About one grain in ${Math.round(ratio)} is shown, drawn ${readable(Math.sqrt(ratio), 2)} times as wide.`);
+    if (ratio > 1) notes.push(`About one grain in ${Math.round(ratio)} is shown, drawn ${readable(ratio ** (1 / this.data.dimension), 2)} times as wide.`);
     if (this.data.replayStride > 1) notes.push(`One frame in ${this.data.replayStride} of replay.bin is shown.`);
+    if (this.data.dimension === 3) notes.push("Drag to turn the view.");
     byId("replay-note").textContent = notes.join(" ");
   }
 

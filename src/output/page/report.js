@@ -16,7 +16,7 @@ async function main() {
   for (const button of document.querySelectorAll("[data-copy]")) button.addEventListener("click", () => copyText(button));
   let replay = null;
   const plots = makePlots(data, (time) => replay?.seek(time));
-  const frames = await readFrames(byId("replay-data").textContent, data.frames);
+  const frames = await readFrames(byId("replay-data").textContent, data.frames, data.dimension);
   if (frames.length > 0) {
     replay = new Replay(data, frames, (time) => plots.showReplayTime(time));
     plots.draw(); // the replay has taken its room

@@ -49,6 +49,17 @@ const timer = setInterval(() => {
     found.scale = document.getElementById("scale").textContent;
     found.note = document.getElementById("replay-note").textContent;
   }
+  if (found.replay) {
+    const picture = () => canvas.toDataURL();
+    const pointer = (kind, x) => new PointerEvent(kind, { clientX: x, clientY: 100, bubbles: true });
+    const [before, playing] = [picture(), document.getElementById("play-icon").getAttribute("d")];
+    canvas.dispatchEvent(pointer("pointerdown", 100));
+    canvas.dispatchEvent(pointer("pointermove", 250));
+    found.turned = picture() !== before;
+    canvas.dispatchEvent(pointer("pointerup", 250));
+    if (found.turned) canvas.dispatchEvent(new MouseEvent("click"));
+    found.keptStill = document.getElementById("play-icon").getAttribute("d") === playing;
+  }
   const plot = document.querySelector(".plot svg");
   if (plot) {
     const box = plot.getBoundingClientRect();
@@ -106,6 +117,18 @@ def check_full(found):
     assert "grains 7" in found["plotsNote"], found["plotsNote"]
 
 
+def check_plane(found):
+    check_full(found)
+    assert not found["turned"], "a plane turned"
+
+
+def check_space(found):
+    check_full(found)
+    assert "Drag to turn" in found["note"], found["note"]
+    assert found["turned"], "dragging does not turn the view"
+    assert found["keptStill"], "the end of a drag counts as a click"
+
+
 def check_no_grains(found):
     assert found["replay"] and found["choices"] == ["speed"]
 
@@ -142,9 +165,9 @@ def check_crowd(found):
     assert "One row in 3" in found["plotsNote"], found["plotsNote"]
 
 
-checks = {"walls": check_full, "periodic": check_full, "no-grains": check_no_grains, "no-frames": check_no_frames,
-          "one-frame": check_one_frame, "empty-log": check_empty_log, "hostile": check_hostile,
-          "broken-numbers": check_broken_numbers, "crowd": check_crowd}
+checks = {"walls": check_plane, "periodic": check_plane, "space": check_space, "no-grains": check_no_grains,
+          "no-frames": check_no_frames, "one-frame": check_one_frame, "empty-log": check_empty_log,
+          "hostile": check_hostile, "broken-numbers": check_broken_numbers, "crowd": check_crowd}
 
 
 def main():

@@ -101,9 +101,11 @@ output::ReportInput report(const std::vector<analysis::Snapshot>& frames, int ro
     input.scene = sample::scene();
     input.scene.title = "A title";
     if (!frames.empty()) {
-        input.scene.domain.lower = frames[0].lower;
-        input.scene.domain.upper = frames[0].upper;
-        input.scene.domain.periodic = {frames[0].periodic_x, frames[0].periodic_y};
+        scene::Domain& domain = input.scene.domain;
+        domain.dimension = frames[0].dimension;
+        domain.lower = frames[0].lower;
+        domain.upper = frames[0].upper;
+        domain.periodic = {frames[0].periodic_x, frames[0].periodic_y, frames[0].periodic_z};
     }
     input.summary = {{"Grains", "7"}};
     input.plan = "engine md\n";
@@ -151,6 +153,7 @@ void write_reports(const fs::path& folder) {
     };
     write("walls.html", report(sample::frames(sample::walled_row, 12), 40));
     write("periodic.html", report(sample::frames(sample::periodic_row, 12), 40));
+    write("space.html", report(sample::frames(sample::space_row, 12), 40));
     write("no-grains.html", report({sample::empty(0), sample::empty(1)}, 2));
     write("no-frames.html", report({}, 40));
     write("one-frame.html", report(sample::frames(sample::row, 1), 1));
