@@ -345,7 +345,7 @@ TEST(WallLoads, ATurningWallGrainWithCouples) {
     EXPECT_NEAR(load.force.x, 0.5 * normal, tolerance);
     EXPECT_NEAR(load.torque.z, -torque, tolerance);
     EXPECT_NEAR(load.power, 2 * torque, tolerance);
-    EXPECT_NEAR(sim.contacts().at(0).tangential, 0.5 * normal, tolerance);
+    EXPECT_NEAR(sim.contacts().at(0).tangential, -0.5 * normal, tolerance); // n points down, t to the right
     sim.run(1);
     EXPECT_NEAR(sim.wall_work(), 2 * torque * s.md.dt, 1e-4 * torque * s.md.dt); // the kernel's own sum
 }

@@ -50,7 +50,7 @@ scene::Scene two_materials() {
     a.rolling_damping = 2e-5;
     s.materials.push_back(a);
     scene::Material& b = s.materials[1];
-    b.name = "other";
+    b.name.push_back('2');
     b.stiffness = 3e5;
     b.unloading_stiffness = 3e5;
     b.damping = 3;
@@ -99,8 +99,8 @@ TEST(Mixing, OfUnlikeMaterials) { // 2.5
 TEST(Mixing, PairsOverride) {
     scene::Scene s = two_materials();
     scene::MaterialPair pair;
-    pair.first = "other";
-    pair.second = "m";
+    pair.first = s.materials[1].name;
+    pair.second = s.materials[0].name;
     pair.stiffness = 7;
     pair.cohesion = 8;
     pair.rolling_friction = 0;
