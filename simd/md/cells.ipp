@@ -144,8 +144,10 @@ std::int32_t near_pairs(const PairView& view, const std::int32_t* i, const std::
                         std::int32_t count, double skin, std::int32_t* near_i, std::int32_t* near_j,
                         std::int32_t* position) {
     if (view.sheared)
-        return near_pairs_of<Arch, dimension, Images::sheared>(view, i, j, count, skin, near_i, near_j, position);
-    return near_pairs_of<Arch, dimension, Images::periodic>(view, i, j, count, skin, near_i, near_j, position);
+        return near_pairs_of<Arch, dimension, Images::sheared>(view, i, j, count, skin, near_i, near_j,
+                                                               position);
+    return near_pairs_of<Arch, dimension, Images::periodic>(view, i, j, count, skin, near_i, near_j,
+                                                            position);
 }
 
 } // namespace sandlane::simd

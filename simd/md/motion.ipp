@@ -33,7 +33,8 @@ SANDLANE_INLINE Left wrap(Block<Arch>& x, double lower, double upper, double per
 
 // Who crosses a Lees-Edwards seam goes on at the place and with the velocity of the image.
 template <class Arch>
-SANDLANE_INLINE void cross_seam(const MotionView& view, const Left& left, Block<Arch>& x, Block<Arch>& shift) {
+SANDLANE_INLINE void cross_seam(const MotionView& view, const Left& left, Block<Arch>& x,
+                                Block<Arch>& shift) {
     double places[width], shifts[width];
     store(places, x);
     store(shifts, shift);
@@ -45,16 +46,22 @@ SANDLANE_INLINE void cross_seam(const MotionView& view, const Left& left, Block<
     shift = load<Arch>(shifts);
 }
 
+// What a pass does. Both at once is every step but the first and the last of a run: its kernels are compiled
+// for that, and once more for either.
+struct Phase {
+    bool correct, predict;
+};
+
 // One degree of freedom of eight particles: `value` and `shift` are k = 0 and 1, the rest stands in `gear`.
-template <class Arch, int order, bool do_correct, bool do_predict>
-SANDLANE_INLINE void step_value(double* gear, Block<Arch>& value, Block<Arch>& shift,
+template <class Arch, int order>
+SANDLANE_INLINE void step_value(Phase phase, double* gear, Block<Arch>& value, Block<Arch>& shift,
                                 const Block<Arch>& acceleration, const Block<Arch>& half_dt2) {
     Block<Arch> x[order];
     x[0] = value;
     x[1] = shift;
     for (int k = 2; k < order; ++k) x[k] = load<Arch>(gear + (k - 2) * width);
-    if constexpr (do_correct) motion::gear_correct(x, acceleration, half_dt2);
-    if constexpr (do_predict) motion::gear_predict(x);
+    if (phase.correct) motion::gear_correct(x, acceleration, half_dt2);
+    if (phase.predict) motion::gear_predict(x);
     value = x[0];
     shift = x[1];
     for (int k = 2; k < order; ++k) store(gear + (k - 2) * width, x[k]);
@@ -85,7 +92,8 @@ SANDLANE_INLINE void settle(const MotionView& view, std::int64_t first, unsigned
     R shift2(0.0);
     for (int d = dimension - 1; d >= 0; --d) { // y before x, which a seam may change
         if (!(view.period[d] > 0)) continue;
-        const Left left = wrap(record[d], view.lower[d], view.upper[d], view.period[d], view.image[d] + first);
+        const Left left =
+            wrap(record[d], view.lower[d], view.upper[d], view.period[d], view.image[d] + first);
         if (d == 1 && left.any() && view.sheared) cross_seam(view, left, record[0], record[dimension]);
     }
     for (int d = 0; d < dimension; ++d) {
@@ -97,15 +105,16 @@ SANDLANE_INLINE void settle(const MotionView& view, std::int64_t first, unsigned
     most = max(only(real, shift2), most);
 }
 
-template <class Arch, int dimension, int order, Rotation rotation, bool do_correct, bool do_predict>
-MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t end) {
+template <class Arch, int dimension, int order, Rotation rotation>
+SANDLANE_INLINE MotionResult gear_step(Phase phase, const MotionView& view, std::int64_t begin,
+                                       std::int64_t end) {
     using R = Block<Arch>;
     using Fields = Record<dimension>;
     constexpr bool turns = rotation != Rotation::none, couples = rotation == Rotation::couples;
     constexpr int dofs = degrees_of_freedom(dimension, turns), fields = force_stride(dimension, rotation);
     const auto step = [&](double* gear, int dof, R& value, R& shift, const R& acceleration) {
-        step_value<Arch, order, do_correct, do_predict>(gear + dof * (order - 2) * width, value, shift,
-                                                        acceleration, R(view.half_dt2));
+        step_value<Arch, order>(phase, gear + dof * (order - 2) * width, value, shift, acceleration,
+                                R(view.half_dt2));
     };
     R most(0.0);
     std::int64_t outside = 0;
@@ -114,7 +123,7 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
         R record[record_fields], force[fields], inverse_mass(0.0);
         Rows<Arch, record_fields>::load(view.records + first * record_fields, record);
         for (int f = 0; f < fields; ++f) force[f] = R(0.0);
-        if constexpr (do_correct) {
+        if (phase.correct) {
             take_forces<Arch, fields>(view.force + (first - begin) * fields, force);
             inverse_mass = load<Arch>(view.inverse_mass + first);
         }
@@ -138,10 +147,28 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
             Rows<Arch, spin_fields>::store(spin, view.new_spins + first * spin_fields);
         }
         const unsigned real = end - first >= width ? 0xffu : (1u << (end - first)) - 1u;
-        if constexpr (do_predict) settle<Arch, dimension>(view, first, real, record, most, outside);
+        if (phase.predict) settle<Arch, dimension>(view, first, real, record, most, outside);
         Rows<Arch, record_fields>::store(record, view.new_records + first * record_fields);
     }
     return {largest(most), outside};
+}
+
+template <class Arch, int dimension, int order, Rotation rotation>
+MotionResult advance(const MotionView& view, std::int64_t begin, std::int64_t end) {
+    return gear_step<Arch, dimension, order, rotation>({true, true}, view, begin, end);
+}
+template <class Arch, int dimension, int order, Rotation rotation>
+__attribute__((noinline)) MotionResult either(bool correct, const MotionView& view, std::int64_t begin,
+                                              std::int64_t end) {
+    return gear_step<Arch, dimension, order, rotation>({correct, !correct}, view, begin, end);
+}
+template <class Arch, int dimension, int order, Rotation rotation>
+MotionResult correct(const MotionView& view, std::int64_t begin, std::int64_t end) {
+    return either<Arch, dimension, order, rotation>(true, view, begin, end);
+}
+template <class Arch, int dimension, int order, Rotation rotation>
+MotionResult predict(const MotionView& view, std::int64_t begin, std::int64_t end) {
+    return either<Arch, dimension, order, rotation>(false, view, begin, end);
 }
 
 // Lattice site or cell of each particle (floor, and the quotient rounded up is clamped; a corrected position

@@ -22,7 +22,8 @@ SANDLANE_INLINE Block<Arch> minimum_image(const Block<Arch>& d, double half, dou
 
 // The image across a Lees-Edwards seam stands and moves along x.
 template <class Arch>
-SANDLANE_INLINE void cross_seam(const PairView& view, const Block<Arch>& dy, Block<Arch>& dx, Block<Arch>& shift) {
+SANDLANE_INLINE void cross_seam(const PairView& view, const Block<Arch>& dy, Block<Arch>& dx,
+                                Block<Arch>& shift) {
     using R = Block<Arch>;
     const R zero(0.0), seam(view.seam), moves(view.seam_shift);
     const auto above = dy > R(view.half[1]), below = dy < R(-view.half[1]);
@@ -36,8 +37,7 @@ SANDLANE_INLINE Block<Arch> separate(const PairView& view, Block<Arch> (&field)[
     if constexpr (images == Images::sheared)
         cross_seam(view, field[1], field[0], field[Record<dimension>::velocity]);
     if constexpr (images != Images::none)
-        for (int d = 0; d < dimension; ++d)
-            field[d] = minimum_image(field[d], view.half[d], view.period[d]);
+        for (int d = 0; d < dimension; ++d) field[d] = minimum_image(field[d], view.half[d], view.period[d]);
     const Block<Arch> square = field[0] * field[0] + field[1] * field[1];
     if constexpr (dimension == 3) return square + field[2] * field[2];
     return square;

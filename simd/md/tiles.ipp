@@ -11,22 +11,29 @@ inline constexpr int tile_chunk = 128; // pairs
 inline constexpr int look_ahead = 64;  // pairs: distance of the prefetch of partners' records
 
 // The contacts of one chunk, packed; room for the full store of the last eight.
-template <int force_fields> struct Contacts {
+struct Contacts {
     static constexpr int room = tile_chunk + width;
     alignas(64) double field[record_fields][room]; // combined records
-    alignas(64) double rows[room * force_fields];
-    std::int32_t i[room], j[room], place[room]; // place in the chunk
+    std::int32_t i[room], j[room], place[room];    // place in the chunk
     int count;
 };
 
-// Whether the laws read field f of combined records.
+// Which fields of combined records the laws read, and what a contact remembers: laws that agree share the
+// loop that packs contacts.
+struct Reads {
+    bool spin, inverse_radius;
+    int memory_row;
+
+    [[nodiscard]] constexpr bool operator()(int dimension, int field) const {
+        if (dimension == 2 && field == Record<2>::spin) return spin;
+        if (field == radius_field(dimension) + 1) return inverse_radius;
+        return field < 2 * dimension || field == radius_field(dimension);
+    }
+    bool operator==(const Reads&) const = default;
+};
 template <int dimension, class Normal, class Tangential, bool couples>
-[[nodiscard]] constexpr bool reads(int f) {
-    using Fields = Record<dimension>;
-    if (dimension == 2 && f == Fields::spin) return Tangential::needs_spin;
-    if (f == Fields::inverse_radius) return Normal::needs_radius || couples;
-    return f < Fields::sums || f == Fields::radius;
-}
+inline constexpr Reads reads_of{Tangential::needs_spin, Normal::needs_radius || couples,
+                                memory_row(laws::memory_of<Normal, Tangential, dimension>)};
 
 // A contact that begins has nothing to remember: laws know it by `no_contact`.
 template <int doubles>
@@ -43,49 +50,61 @@ SANDLANE_INLINE void prefetch_grain(const PairView& view, std::int32_t j) {
     if (dimension == 3 && spin) __builtin_prefetch(view.spins + std::ptrdiff_t{j} * spin_fields);
 }
 
-template <class Arch, int dimension, Images images, class Normal, class Tangential, bool couples, class Packed>
-SANDLANE_INLINE void pack_contacts(const PairView& view, const TileList& list, std::int32_t first, int size,
-                                   Packed& c) {
+// Lanes behind the last contact repeat it, so that they hold numbers.
+template <int dimension, Reads reads> SANDLANE_INLINE void pad_contacts(Contacts& c) {
+    const int last = c.count - 1;
+    for (int n = c.count; n % width != 0; ++n) {
+        for (int f = 0; f < record_fields; ++f)
+            if (reads(dimension, f)) c.field[f][n] = c.field[f][last];
+        if (reads.memory_row > 0) c.place[n] = c.place[last];
+        c.i[n] = c.i[last];
+        c.j[n] = c.j[last];
+    }
+}
+
+// Not inlined: one copy for all laws, and a call per chunk costs nothing.
+template <class Arch, int dimension, Images images, Reads reads>
+__attribute__((noinline)) void pack_contacts(const PairView& view, const TileList& list, std::int32_t first,
+                                             int size, Contacts& c) {
     using R = Block<Arch>;
-    constexpr int memory = laws::memory_of<Normal, Tangential, dimension>;
     const std::int32_t *const i = list.i + first, *const j = list.j + first;
     const std::int32_t* const end = list.j + list.count;
-    c.count = 0;
+    int at = 0;
     for (int n = 0; n < size; n += width) {
         if (j + n + look_ahead + width <= end)
             for (int l = 0; l < width; ++l)
-                prefetch_grain<dimension, Tangential::needs_spin>(view, j[n + look_ahead + l]);
+                prefetch_grain<dimension, reads.spin>(view, j[n + look_ahead + l]);
         R field[record_fields];
         CombinePairs<Arch, dimension>::apply(view.records, i + n, j + n, field);
         const R square = separate<Arch, dimension, images>(view, field),
                 sum = field[Record<dimension>::radius];
         unsigned touching = bits(square < sum * sum);
         if (size - n < width) touching &= (1u << (size - n)) - 1u;
-        const int at = c.count;
         for (int f = 0; f < record_fields; ++f)
-            if (reads<dimension, Normal, Tangential, couples>(f))
-                compress(field[f], touching, c.field[f] + at);
-        if constexpr (memory > 0) {
+            if (reads(dimension, f)) compress(field[f], touching, c.field[f] + at);
+        if constexpr (reads.memory_row > 0) {
             const std::int32_t here[width] = {n, n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7};
             Integers<Arch, width>(here).compress(touching, c.place + at);
-            begin_contacts<memory_row(memory)>(list, first + n, touching);
+            begin_contacts<reads.memory_row>(list, first + n, touching);
         }
         Integers<Arch, width>(i + n).compress(touching, c.i + at);
         Integers<Arch, width>(j + n).compress(touching, c.j + at);
-        c.count += __builtin_popcount(touching);
+        at += __builtin_popcount(touching);
     }
+    c.count = at;
+    pad_contacts<dimension, reads>(c);
 }
 
-// Lanes behind the last contact repeat it, so that they hold numbers.
-template <int dimension, class Normal, class Tangential, bool couples, class Packed>
-SANDLANE_INLINE void pad_contacts(Packed& c) {
-    const int last = c.count - 1;
-    for (int n = c.count; n % width != 0; ++n) {
-        for (int f = 0; f < record_fields; ++f)
-            if (reads<dimension, Normal, Tangential, couples>(f)) c.field[f][n] = c.field[f][last];
-        if (laws::memory_of < Normal, Tangential, dimension >> 0) c.place[n] = c.place[last];
-        c.i[n] = c.i[last];
-        c.j[n] = c.j[last];
+template <class Arch, int dimension, Reads reads>
+SANDLANE_INLINE void pack_chunk(const PairView& view, const TileList& list, std::int32_t first, int size,
+                                Contacts& c) {
+    switch (list.images) {
+    case Images::none:
+        return pack_contacts<Arch, dimension, Images::none, reads>(view, list, first, size, c);
+    case Images::periodic:
+        return pack_contacts<Arch, dimension, Images::periodic, reads>(view, list, first, size, c);
+    case Images::sheared:
+        return pack_contacts<Arch, dimension, Images::sheared, reads>(view, list, first, size, c);
     }
 }
 
@@ -127,7 +146,9 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
     constexpr int memory = laws::memory_of<Normal, Tangential, dimension>, doubles = memory_row(memory);
     constexpr int fields = force_stride(dimension, rotation_of<Tangential, couples>);
     using Row = ForceRow<Arch, dimension, fields>;
-    Contacts<fields> c;
+    constexpr Reads reads = reads_of<dimension, Normal, Tangential, couples>;
+    Contacts c;
+    alignas(64) double rows[Contacts::room * fields];
     laws::PairCoefficients<R> coefficients;
     if constexpr (!many_materials) coefficients = laws::coefficients_from<R>(view.coefficients);
     const R elapsed(view.dt);
@@ -136,29 +157,22 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
     for (std::int32_t first = 0; first < list.count; first += tile_chunk) {
         const int size = list.count - first < tile_chunk ? list.count - first : tile_chunk;
         double* const remembered = list.memory + std::ptrdiff_t{first} * doubles;
-        if (list.images == Images::none)
-            pack_contacts<Arch, dimension, Images::none, Normal, Tangential, couples>(view, list, first, size, c);
-        else if (list.images == Images::periodic)
-            pack_contacts<Arch, dimension, Images::periodic, Normal, Tangential, couples>(view, list, first, size, c);
-        else
-            pack_contacts<Arch, dimension, Images::sheared, Normal, Tangential, couples>(view, list, first, size, c);
-        pad_contacts<dimension, Normal, Tangential, couples>(c);
+        pack_chunk<Arch, dimension, reads>(view, list, first, size, c);
         for (int n = 0; n < c.count; n += width) {
             if constexpr (many_materials) coefficients = gather_coefficients<Arch>(view, c.i + n, c.j + n);
             R field[record_fields], held[memory + 1];
             for (int f = 0; f < record_fields; ++f)
-                field[f] =
-                    reads<dimension, Normal, Tangential, couples>(f) ? load<Arch>(c.field[f] + n) : R(1.0);
+                field[f] = reads(dimension, f) ? load<Arch>(c.field[f] + n) : R(1.0);
             load_memory<Arch, memory>(remembered, c.place + n, held);
             const auto f = laws::pair_force<Normal, Tangential, couples>(
                 contact_state<Arch, dimension, Tangential, couples>(view, c.i + n, c.j + n, field),
                 coefficients, held, elapsed);
             store_memory<Arch, memory>(held, remembered, c.place + n);
             most = max(f.overlap, most);
-            store_force<Arch, fields>(f, c.rows + n * fields);
+            store_force<Arch, fields>(f, rows + n * fields);
         }
         for (int n = 0; n < c.count; ++n) {
-            const double* row = c.rows + n * fields;
+            const double* row = rows + n * fields;
             Row::add(force + std::ptrdiff_t{c.i[n] - list.begin} * fields, row);
             const auto partner = static_cast<std::uint32_t>(c.j[n] - list.begin);
             const std::ptrdiff_t target = partner < size_of_tile ? std::ptrdiff_t{partner} : tile_grains;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <string_view>
 
 namespace sandlane::app {
 
@@ -69,32 +70,35 @@ std::string wall_name(const scene::Scene& scene, std::size_t wall) {
     return plain && same == 1 ? name : fmt::format("wall_{}", wall);
 }
 
-// Calls body(entry) for those of scenes of this dimension.
+// Calls body(entry) for those that mean something in the scene: energy that a shear flow brings is not
+// booked.
 template <class Entries, class Body>
-void for_entries(const Entries& table, std::int64_t dimension, const Body& body) {
-    for (const auto& entry : table)
-        if (entry.only == 0 || entry.only == dimension) body(entry);
+void for_entries(const Entries& table, const scene::Domain& domain, const Body& body) {
+    for (const auto& entry : table) {
+        const bool balance = std::string_view(entry.name) == "dissipated_energy";
+        if (balance && domain.shear_rate != 0) continue;
+        if (entry.only == 0 || entry.only == domain.dimension) body(entry);
+    }
 }
 
 } // namespace
 
 std::vector<analysis::LogColumn> log_columns(const scene::Scene& scene) {
-    const std::int64_t dimension = scene.domain.dimension;
     std::vector<analysis::LogColumn> columns;
-    for_entries(entries, dimension, [&](const Entry& e) { columns.push_back({e.name, e.unit}); });
+    for_entries(entries, scene.domain, [&](const Entry& e) { columns.push_back({e.name, e.unit}); });
     for (std::size_t wall = 0; wall < scene.walls.size(); ++wall)
-        for_entries(wall_entries, dimension, [&](const WallEntry& e) {
+        for_entries(wall_entries, scene.domain, [&](const WallEntry& e) {
             columns.push_back({fmt::format("{}_{}", wall_name(scene, wall), e.name), e.unit});
         });
     return columns;
 }
 
 std::vector<double> log_row(const md::Simulation& simulation, const md::Observables& observed) {
-    const std::int64_t dimension = simulation.scene().domain.dimension;
+    const scene::Domain& domain = simulation.scene().domain;
     std::vector<double> row;
-    for_entries(entries, dimension, [&](const Entry& e) { row.push_back(e.value(simulation, observed)); });
+    for_entries(entries, domain, [&](const Entry& e) { row.push_back(e.value(simulation, observed)); });
     for (const md::WallLoad& load : observed.walls)
-        for_entries(wall_entries, dimension, [&](const WallEntry& e) { row.push_back(e.value(load)); });
+        for_entries(wall_entries, domain, [&](const WallEntry& e) { row.push_back(e.value(load)); });
     return row;
 }
 

@@ -37,6 +37,7 @@ Camera look_from(Vec direction, Vec world_up) {
             std::sin(usual_elevation) * vertical;
     Camera camera;
     camera.towards = unit(direction);
+    camera.vertical = vertical;
     const bool along = is_parallel(camera.towards, vertical);
     const Vec upwards = !along ? vertical : dot(camera.towards, vertical) > 0 ? -1.0 * front : front;
     camera.up = unit(across(upwards, camera.towards));

@@ -7,7 +7,8 @@
 namespace sandlane::output {
 
 struct Camera {
-    Vec right{1, 0, 0}, up{0, 1, 0}, towards{0, 0, 1}; // unit vectors; the last to the viewer
+    // Unit vectors; towards: to the viewer; vertical: up in the world, across `right`.
+    Vec right{1, 0, 0}, up{0, 1, 0}, towards{0, 0, 1}, vertical{0, 1, 0};
 
     // To the right, up and towards the viewer, m.
     [[nodiscard]] Vec project(Vec p) const { return {dot(right, p), dot(up, p), dot(towards, p)}; }

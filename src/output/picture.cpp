@@ -83,6 +83,7 @@ void write_picture(const std::filesystem::path& path, const Snapshot& s, const P
     const std::vector<double> values = colour_values(s, style.colour);
     const ColourScale scale = make_scale(values, style);
     std::vector<Rgb> colours;
+    colours.reserve(values.size());
     for (const double value : values) colours.push_back(scale.of(value));
     if (space)
         draw_space(canvas, v, s, style.camera, colours);

@@ -59,13 +59,14 @@ void append_wall(const WallShape& wall, std::vector<float>& numbers) {
         add({2, wall.centre.x, wall.centre.y, wall.radius, wall.angle, 0});
         break;
     case WallShape::Kind::triangle:
-        add({3, wall.a.x, wall.a.y, wall.a.z, wall.b.x, wall.b.y, wall.b.z, wall.c.x, wall.c.y, wall.c.z});
+        add({3, wall.a.x, wall.a.y, wall.a.z, wall.b.x, wall.b.y, wall.b.z, wall.c.x, wall.c.y, wall.c.z,
+             static_cast<double>(wall.wall)});
         break;
     }
 }
 
 void append_edge(const WallEdge& e, std::vector<float>& numbers) {
-    for (const double value : {4.0, e.a.x, e.a.y, e.a.z, e.b.x, e.b.y, e.b.z, 0.0, 0.0, 0.0})
+    for (const double value : {4.0, e.a.x, e.a.y, e.a.z, e.b.x, e.b.y, e.b.z, 0.0, 0.0, 0.0, 0.0})
         numbers.push_back(static_cast<float>(value));
 }
 

@@ -25,14 +25,15 @@ struct ReplayFrame {
     std::array<std::vector<std::uint8_t>, 4> level;
     std::array<float, 4> scale{};
     // wall_numbers() per wall: kind, then the ends of a segment | centre, radius, first and last angle of an
-    // arc | centre, radius, angle of a disc | corners of a triangle | ends of an edge of triangles.
+    // arc | centre, radius, angle of a disc | corners of a triangle, index of its wall | ends of an edge of
+    // triangles.
     std::vector<float> walls;
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
 };
 
 [[nodiscard]] constexpr std::size_t wall_numbers(int dimension) {
-    return dimension == 3 ? 10 : 6;
+    return dimension == 3 ? 11 : 6;
 }
 inline constexpr std::size_t most_replayed = 10000; // grains in a frame; of more, a fixed sample is kept
 // 3D. Walls of more triangles are replayed as their sharp edges; of more edges, the longest are kept.

@@ -32,10 +32,10 @@ std::string json_vector(Vec v, std::int64_t dimension) {
     return fmt::format("[{}]", dimension == 3 ? plane + ", " + json_number(v.z) : plane);
 }
 
-// Axes of the picture: to the right, up, towards the viewer.
+// Axes of the picture, to the right, up, towards the viewer, and up in the world.
 std::string json_camera(const Camera& camera) {
-    return fmt::format("[{}, {}, {}]", json_vector(camera.right, 3), json_vector(camera.up, 3),
-                       json_vector(camera.towards, 3));
+    return fmt::format("[{}, {}, {}, {}]", json_vector(camera.right, 3), json_vector(camera.up, 3),
+                       json_vector(camera.towards, 3), json_vector(camera.vertical, 3));
 }
 
 // Column by column, so that a plot takes what it needs.

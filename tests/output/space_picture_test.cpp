@@ -76,6 +76,7 @@ TEST(Camera, AxesAreRightHandedUnitVectors) {
             for (const Vec axis : {camera.right, camera.up, camera.towards})
                 EXPECT_NEAR(norm(axis), 1, slack);
             expect_near(cross(camera.right, camera.up), camera.towards);
+            EXPECT_NEAR(dot(camera.vertical, camera.right), 0, slack);
             if (norm(direction) > 0) expect_near(norm(direction) * camera.towards, direction);
             EXPECT_GE(dot(camera.up, up), -slack);
         }
@@ -140,8 +141,9 @@ TEST(SpacePicture, SpheresCoverTheirDiscsAndAreLitFromTheLeftAbove) {
     const double side = image.right - image.left + 2, r = 0.2 * side;
     for (int y = image.top; y < image.bottom; ++y)
         for (int x = image.left; x < image.right; ++x)
-            covered += std::hypot(x + 1 - image.left - 0.5 * side, y + 1 - image.top - 0.5 * side) < 1.5 * r &&
-                       image.at(x, y) != ground;
+            covered +=
+                std::hypot(x + 1 - image.left - 0.5 * side, y + 1 - image.top - 0.5 * side) < 1.5 * r &&
+                image.at(x, y) != ground;
     // Pixels cut by the rim count whole: half a pixel more along the circumference, within a quarter.
     EXPECT_NEAR(covered, M_PI * r * r + M_PI * r, M_PI * r / 2);
     EXPECT_GT(brightness(image.in_domain(0.42, 0.58)), brightness(image.in_domain(0.58, 0.42)) + 30);

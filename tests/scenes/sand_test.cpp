@@ -35,10 +35,10 @@ md::Simulation hopper(const std::string& lips, int seed) {
 }
 
 // Outlets of 2.2 diameters always jam, those of more than 5 hardly ever (K. To et al., Phys. Rev. Lett. 86,
-// 71 (2001)). The right lip is at 0.109 m.
+// 71 (2001)). The right lip is at 0.11 m.
 TEST(SlowShippedScenes, NarrowHopperJams) {
     for (const int seed : {1, 2, 3}) {
-        md::Simulation sim = hopper("0.098", seed);
+        md::Simulation sim = hopper("0.099", seed);
         sim.run(sim.plan().steps);
         EXPECT_GT(sim.snapshot().size(), 200U) << seed;
         EXPECT_EQ(static_cast<std::int64_t>(sim.snapshot().size()) + sim.removed(), 300) << seed;
@@ -49,7 +49,7 @@ TEST(SlowShippedScenes, NarrowHopperJams) {
 
 TEST(SlowShippedScenes, WideHopperRunsEmpty) {
     for (const int seed : {1, 2, 3}) {
-        md::Simulation sim = hopper("0.069", seed); // eight diameters
+        md::Simulation sim = hopper("0.07", seed); // eight diameters
         sim.run(sim.plan().steps);
         EXPECT_EQ(sim.removed(), 300) << seed;
     }

@@ -36,7 +36,7 @@ class FrameReader {
     const count = this.number("Uint32", 4);
     if (count === 0xffffffff) return this.before.walls;
     return Array.from({ length: count }, () => {
-      const [kind, ...numbers] = this.numbers(this.dimension === 3 ? 10 : 6);
+      const [kind, ...numbers] = this.numbers(this.dimension === 3 ? 11 : 6);
       return { kind: wallKinds[kind], numbers };
     });
   }

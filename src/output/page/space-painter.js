@@ -38,7 +38,7 @@ class SpacePainter extends Painter {
     this.middle = sum(data.lower, times(0.5, this.sides));
     // Whatever the view, the domain fits.
     this.wide = this.high = Math.hypot(...this.sides) || 1;
-    [this.right, this.up, this.towards] = data.camera;
+    [this.right, this.up, this.towards, this.vertical] = data.camera;
     this.listen();
   }
 
@@ -66,12 +66,12 @@ class SpacePainter extends Painter {
     });
   }
 
-  // As if the domain were a ball that the pointer rolls.
+  // Like a globe on its stand: about the vertical, and to and fro but not over the poles.
   turn(sideways, down) {
-    this.towards = turned(turned(this.towards, this.up, -sideways), this.right, -down);
-    this.up = turned(this.up, this.right, -down);
-    this.towards = unit(this.towards);
-    this.right = unit(cross(this.up, this.towards));
+    this.right = unit(turned(this.right, this.vertical, -sideways));
+    this.towards = turned(this.towards, this.vertical, -sideways);
+    const tilted = unit(turned(this.towards, this.right, -down));
+    if (dot(cross(this.vertical, tilted), this.right) > 1e-3) this.towards = tilted;
     this.up = cross(this.towards, this.right);
     this.redraw();
   }
@@ -117,12 +117,15 @@ class SpacePainter extends Painter {
     return Array.from({ length: count }, (_, k) => this.project(numbers.slice(3 * k, 3 * k + 3)));
   }
 
-  // All triangles as one figure, turned alike: what they cover together is filled once.
+  // The triangles of a wall as one figure, turned alike: what they cover together is filled once.
   fillWalls(frame) {
     const { context } = this;
-    const figure = new Path2D();
+    const figures = new Map();
     for (const wall of frame.walls) {
       if (wall.kind !== "triangle") continue;
+      const index = wall.numbers[9];
+      if (!figures.has(index)) figures.set(index, new Path2D());
+      const figure = figures.get(index);
       const [a, b, c] = this.cornersOf(wall, 3);
       const left = (b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0]);
       const [second, third] = left ? [b, c] : [c, b];
@@ -131,9 +134,9 @@ class SpacePainter extends Painter {
       figure.lineTo(third[0], third[1]);
       figure.closePath();
     }
-    context.globalAlpha = 0.3;
+    context.globalAlpha = 0.25;
     context.fillStyle = this.ink["wall-fill"];
-    context.fill(figure);
+    for (const figure of figures.values()) context.fill(figure);
     context.globalAlpha = 1;
   }
 
