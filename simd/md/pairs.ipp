@@ -105,6 +105,7 @@ contact_state(const PairView& view, const std::int32_t* i, const std::int32_t* j
             state.differ = vector(turns.differ, rate);
         }
         state.radius = turns.first;
+        state.other = turns.second;
         state.square_difference = turns.first * turns.first - turns.second * turns.second;
     }
     return state;

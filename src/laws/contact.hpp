@@ -48,25 +48,27 @@ template <int memory, class R> SANDLANE_INLINE R begin_contact(R* held, const R&
     return select(fresh, zero, elapsed);
 }
 
-// Lever arms l_i, l_j of a contact at distance d (1.8).
+// Lever arms l_i, l_j of a contact at distance d (1.8). Each partner gets the same bits whichever comes
+// first: both sides of a contact must remember the same.
 template <class R> struct Levers { R first, second; };
 template <class R>
-SANDLANE_INLINE Levers<R> levers(const R& distance, const R& radius, const R& radius_sum,
+SANDLANE_INLINE Levers<R> levers(const R& distance, const R& radius, const R& other,
                                  const R& square_difference, const R& plane) {
-    const R half(0.5), other = radius_sum - radius;
-    const R first = half * (distance + square_difference / distance);
-    return {radius + plane * (first - radius), other + plane * ((distance - first) - other)};
+    const R half(0.5), shift = square_difference / distance;
+    const R first = half * (distance + shift), second = half * (distance - shift);
+    return {radius + plane * (first - radius), other + plane * (second - other)};
 }
 
 // Relative state of j seen from i: d = r_j - r_i (minimum image), dv = v_j - v_i, sums over both grains. The
 // members behind the reduced radius are read where couples are asked for, and `spin` is not.
 template <class R> struct PairState {
     R dx, dy, dvx, dvy;
-    R spin;                          // R_i omega_i + R_j omega_j
-    R radius_sum;                    // R_i + R_j
-    R inverse_radii;                 // 1/R_i + 1/R_j
-    R turn{}, differ{};              // omega_i + omega_j, omega_i - omega_j
-    R radius{}, square_difference{}; // R_i, R_i^2 - R_j^2; walls, which are flat here: d^2
+    R spin;                // R_i omega_i + R_j omega_j
+    R radius_sum;          // R_i + R_j
+    R inverse_radii;       // 1/R_i + 1/R_j
+    R turn{}, differ{};    // omega_i + omega_j, omega_i - omega_j
+    R radius{}, other{};   // R_i, R_j
+    R square_difference{}; // R_i^2 - R_j^2; of a flat wall, whose R_j counts as 0: d^2
 };
 
 // Force on i; j gets the opposite force and the same tangential force (equal torque signs, 1.7). The torque
@@ -117,7 +119,7 @@ SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoeffic
     R spin = s.spin, share(1.0);
     Levers<R> arm{s.radius, zero};
     if constexpr (couples) {
-        arm = levers(distance, s.radius, s.radius_sum, s.square_difference, c.lever);
+        arm = levers(distance, s.radius, s.other, s.square_difference, c.lever);
         spin = R(0.5) * ((arm.first + arm.second) * s.turn + (arm.first - arm.second) * s.differ);
         share = (arm.first + arm.second) / s.radius_sum;
     }
@@ -145,8 +147,8 @@ template <class R> struct SpatialState {
     Vector<R> turn; // omega_i + omega_j; only laws that need the twist look at it
     R radius_sum;   // R_i + R_j
     R inverse_radii;
-    Vector<R> differ{};              // omega_i - omega_j
-    R radius{}, square_difference{}; // as in the plane
+    Vector<R> differ{};                       // omega_i - omega_j
+    R radius{}, other{}, square_difference{}; // as in the plane
 };
 
 // Force on i; j gets the opposite force. Torque over the lever arm, n x f_t, is the same for both (1.7).
@@ -173,7 +175,7 @@ SANDLANE_INLINE SpatialForce<R> pair_force(const SpatialState<R>& s, const PairC
     R share(1.0);
     Levers<R> arm{s.radius, zero};
     if constexpr (couples) {
-        arm = levers(distance, s.radius, s.radius_sum, s.square_difference, c.lever);
+        arm = levers(distance, s.radius, s.other, s.square_difference, c.lever);
         spin = R(0.5) * ((arm.first + arm.second) * s.turn + (arm.first - arm.second) * s.differ);
         share = (arm.first + arm.second) / s.radius_sum;
     }

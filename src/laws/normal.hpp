@@ -26,7 +26,7 @@ template <class R> SANDLANE_INLINE NormalForce<R> cut(const R& force, const R& l
 
 // f_n = k xi + gamma d xi/dt (2.8). elastic = k [N/m], dissipative = gamma [kg/s].
 struct LinearDashpot {
-    static constexpr bool needs_radius = false, cohesive = false;
+    static constexpr bool needs_radius = false;
     static constexpr int memory = 0;
     template <class R> static SANDLANE_INLINE NormalForce<R> force(const NormalInput<R>& c, R*) {
         return cut(c.elastic * c.overlap + c.dissipative * c.rate, c.least);
@@ -40,7 +40,7 @@ struct LinearDashpot {
 // f_n = K (xi^{3/2} + A sqrt(xi) d xi/dt), K = elastic sqrt(R_eff) (2.10), (2.12)-(2.14).
 // elastic = (4/3)/[(1-nu_i^2)/Y_i + (1-nu_j^2)/Y_j] [Pa], dissipative = A [s].
 struct Viscoelastic {
-    static constexpr bool needs_radius = true, cohesive = false;
+    static constexpr bool needs_radius = true;
     static constexpr int memory = 0;
     template <class R> static SANDLANE_INLINE NormalForce<R> force(const NormalInput<R>& c, R*) {
         const R root = sqrt(c.overlap * c.reduced_radius);
@@ -57,7 +57,7 @@ struct Viscoelastic {
 // largest overlap xi_m of the contact so far (2.15). elastic = Y_l, dissipative = Y_u >= Y_l [N/m]. memory:
 // xi_m [m].
 struct WaltonBraun {
-    static constexpr bool needs_radius = false, cohesive = false;
+    static constexpr bool needs_radius = false;
     static constexpr int memory = 1;
     template <class R> static SANDLANE_INLINE NormalForce<R> force(const NormalInput<R>& c, R* largest) {
         largest[0] = max(largest[0], c.overlap);
@@ -76,7 +76,7 @@ struct WaltonBraun {
 // simplified law of Johnson, Kendall and Roberts that LIGGGHTS names SJKR2. The pull goes with the contact,
 // so that there is no neck beyond it. Friction feels the push alone.
 struct CohesiveViscoelastic {
-    static constexpr bool needs_radius = true, cohesive = true;
+    static constexpr bool needs_radius = true;
     static constexpr int memory = 0;
     template <class R> static SANDLANE_INLINE R area(const NormalInput<R>& c) {
         return R(12.566370614359172) * c.overlap * c.reduced_radius;

@@ -138,8 +138,8 @@ struct WaltonBraunTangential {
         m[3] = c.normal_force;
         return -m[0];
     }
-    // What unloading gives back at the present load L = mu f_n: the integral of F dF/k_t from F to zero. On the
-    // way to zero k_t counts from F*, else a reversal makes F the turning point.
+    // What unloading gives back at the present load L = mu f_n: the integral of F dF/k_t from F to zero. On
+    // the way to zero k_t counts from F*, else a reversal makes F the turning point.
     static double energy(double stiffness, double friction, const double* m) {
         const double limit = friction * m[3], size = m[0] < 0 ? -m[0] : m[0];
         const double whole = limit + size, turn = limit + (m[0] < 0 ? -m[1] : m[1]);

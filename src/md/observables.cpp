@@ -40,6 +40,7 @@ ContactForce evaluate(const laws::SpatialForce<double>& f, Vec n) {
 template <class Normal, class Tangential, int dimension, bool couples>
 ContactForce contact_force(const Relative& s, const Coefficients& c, const double* remembered) {
     constexpr int numbers = laws::memory_of<Normal, Tangential, dimension>;
+    static_assert(numbers <= laws::most_memory);
     double memory[numbers + 1] = {laws::no_contact};
     if (remembered != nullptr) std::copy_n(remembered, numbers, memory);
     const Vec d = vec(s.d), n = (1 / norm(d)) * d;
@@ -47,9 +48,9 @@ ContactForce contact_force(const Relative& s, const Coefficients& c, const doubl
     if constexpr (dimension == 3) {
         f = evaluate(laws::pair_force<Normal, Tangential, couples>(s, c, memory, 0.0), n);
     } else {
-        const laws::PairState<double> plane{
-            s.d.x,           s.d.y,    s.dv.x,     s.dv.y,   s.spin.z,           s.radius_sum,
-            s.inverse_radii, s.turn.z, s.differ.z, s.radius, s.square_difference};
+        const laws::PairState<double> plane{s.d.x,      s.d.y,        s.dv.x,          s.dv.y,
+                                            s.spin.z,   s.radius_sum, s.inverse_radii, s.turn.z,
+                                            s.differ.z, s.radius,     s.other,         s.square_difference};
         f = evaluate(laws::pair_force<Normal, Tangential, couples>(plane, c, memory, 0.0), n);
     }
     f.energy = laws::elastic_energy<Normal, Tangential, dimension>(f.overlap, s.inverse_radii, c, memory);
@@ -112,6 +113,7 @@ private:
                              state_.inverse_radius(i) + state_.inverse_radius(j),
                              vector(rate_ * (state_.turn(i) - state_.turn(j))),
                              ri,
+                             rj,
                              ri * ri - rj * rj};
             const bool known = memories_.pairs.find(state_.id[i], state_.id[j], memory);
             const ContactForce f =
@@ -132,6 +134,7 @@ private:
                          state_.inverse_radius(i) + c.inverse_radius,
                          vector(omega - c.angular_velocity),
                          state_.radius(i),
+                         c.radius,
                          flat_or_round(c, state_.radius(i))};
         const ContactForce f = kernel_(s, coefficients_of(state_.material[i], element.material),
                                        memories_.walls.find_wall(state_.id[i], static_cast<std::int64_t>(e)));

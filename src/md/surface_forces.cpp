@@ -84,6 +84,7 @@ laws::SpatialState<double> state_of(const RecordedGrain& g, const WallContact& c
             g.inverse_radius,
             vector(g.angular_velocity - c.angular_velocity),
             g.radius,
+            c.radius,
             flat_or_round(c, g.radius)};
 }
 

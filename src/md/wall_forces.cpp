@@ -25,6 +25,7 @@ laws::PairState<double> state_of(const RecordedGrain& g, const WallContact& c) {
     s.turn = omega + c.angular_velocity.z;
     s.differ = omega - c.angular_velocity.z;
     s.radius = g.radius;
+    s.other = c.radius;
     s.square_difference = flat_or_round(c, g.radius);
     return s;
 }

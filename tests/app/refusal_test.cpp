@@ -235,6 +235,60 @@ TEST_F(Refusals, Threads) {
     EXPECT_EQ(run(Call{{"check", "scene.toml"}, {{"OMP_NUM_THREADS", "2,1"}}}).code, 0); // nested levels
 }
 
+// Coefficients that do not fit the chosen laws, or would do nothing.
+TEST_F(Refusals, ContactLaws) {
+    const auto refused = [&](std::vector<std::string> settings) {
+        std::vector<std::string> arguments;
+        for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+        const std::string message = refused_run(Exit::invalid_input, arguments);
+        EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
+        return message;
+    };
+    EXPECT_SAYS(
+        refused(
+            {"md.normal=walton-braun", "materials.0.stiffness=2e4", "materials.0.unloading_stiffness=1e4"}),
+        "materials[0].unloading_stiffness: 10000 is out of range; md.normal = \"walton-braun\" needs 20000");
+    EXPECT_SAYS(refused({"md.normal=walton-braun"}), "materials[0].stiffness: 0 is out of range");
+    EXPECT_SAYS(refused({"md.tangential=walton-braun"}),
+                "materials[0].tangential_stiffness: 0 is out of range");
+    EXPECT_SAYS(refused({"materials.0.cohesion=100"}),
+                "materials[0].cohesion: 100 Pa has no effect with md.normal = \"viscoelastic\"; choose "
+                "\"cohesive-viscoelastic\"");
+    EXPECT_SAYS(refused({"materials.0.cohesion=-1"}), "materials[0].cohesion: -1 is out of range");
+    EXPECT_SAYS(refused({"materials.0.rolling_friction=0.1"}),
+                "needs both rolling_friction (0.1) and rolling_damping (0)");
+    EXPECT_SAYS(refused({"md.tangential=none", "materials.0.rolling_friction=0.1",
+                         "materials.0.rolling_damping=1e-6"}),
+                "materials[0].rolling_friction: 0.1 has no effect with md.tangential = \"none\"");
+    EXPECT_SAYS(refused({"materials.0.rolling_friction=0.1", "materials.0.rolling_damping=1", "md.dt=1e-6"}),
+                "md.dt = 1e-06 s is above the critical time step");
+    EXPECT_SAYS(
+        refused({"md.normal=walton-braun", "materials.0.stiffness=1e4", "materials.0.unloading_stiffness=2e4",
+                 "md.neighbours=link-cells"}),
+        "md.neighbours = \"link-cells\": the contacts of md.normal = \"walton-braun\" with md.tangential = "
+        "\"haff-werner\" remember");
+    EXPECT_SAYS(refused({"md.lever_arm=radius"}), "md.lever_arm: \"radius\" is not one of");
+}
+
+TEST_F(Refusals, PairsOfMaterials) {
+    const auto refused = [&](const std::string& keys, const std::string& md) {
+        const std::string pair = "[[pairs]]\nfirst = \"glass\"\nsecond = \"glass\"\n" + keys + "\n[[walls]]";
+        const std::string more = "friction = 0.5\nstiffness = 1e4\nunloading_stiffness = 2e4\n"
+                                 "tangential_stiffness = 1e4";
+        write("scene.toml", replaced(replaced(replaced(box_scene, "[[walls]]", pair), "[md]", "[md]\n" + md),
+                                     "friction = 0.5", more));
+        return refused_run(Exit::invalid_input, {});
+    };
+    const std::string walton_braun = "normal = \"walton-braun\"";
+    EXPECT_SAYS(refused("stiffness = 5e4", walton_braun), "needs both or neither");
+    EXPECT_SAYS(refused("stiffness = 5e4\nunloading_stiffness = 4e4", walton_braun),
+                "pairs[0]: stiffness = 50000 and unloading_stiffness = 40000");
+    EXPECT_SAYS(refused("unloading_stiffness = 4e4", walton_braun), "needs both or neither");
+    EXPECT_SAYS(refused("tangential_stiffness = 0", "tangential = \"cundall-strack\""),
+                "pairs[0]: a stiffness of 0 is no contact law");
+    EXPECT_SAYS(refused("cohesion = 5", ""), "pairs[0].cohesion: 5 Pa has no effect");
+}
+
 TEST_F(Refusals, GrainFiles) {
     write("scene.toml", replaced(box_scene, "kind = \"lattice\"", "kind = \"file\"\nfile = \"grains.txt\""));
     const auto refused = [&](const std::string& content) {

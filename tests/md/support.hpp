@@ -10,7 +10,7 @@ inline scene::Scene empty_scene() {
     s.domain.lower = {-1, -1, 0};
     s.domain.upper = {1, 1, 0};
     s.materials = {scene::Material{}};
-    s.materials[0].name = "m";
+    s.materials[0].name = std::string("m"); // GCC 12 misreads the assignment of a literal
     s.md.normal = scene::NormalLaw::linear_dashpot;
     s.md.tangential = scene::TangentialLaw::none;
     s.md.duration = 1;

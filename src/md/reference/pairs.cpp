@@ -24,6 +24,7 @@ laws::ContactState<dimension, double> contact_state(const PairView& view, std::i
     s.radius_sum = p.sum;
     s.inverse_radii = p.inverse_sum;
     s.radius = ri;
+    s.other = rj;
     s.square_difference = ri * ri - rj * rj;
     if constexpr (dimension == 2) {
         s.dx = p.d[0];
