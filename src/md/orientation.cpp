@@ -8,12 +8,23 @@
 
 namespace sandlane::md {
 
-void turn_grains(State& state, const Column<double>& before, int threads) {
+namespace {
+
+// X_0(t + dt) - X_0(t) of the angle, from the other values at t + dt (docs/physics.md 7).
+Vec turned(const State& state, std::size_t i) {
+    const Vec rate = state.turn(i);
+    double angle[] = {rate.x, rate.y, rate.z};
+    for (int d = 0; d < 3; ++d)
+        for (int k = 2; k < state.order; ++k) angle[d] += (k % 2 == 0 ? -1 : 1) * state.value(i, 3 + d, k);
+    return {angle[0], angle[1], angle[2]};
+}
+
+} // namespace
+
+void turn_grains(State& state, int threads) {
     for_tiles(state.tiles(), threads, [&](std::size_t tile) {
         for (std::size_t i = tile * tile_size; i < std::min(state.size(), (tile + 1) * tile_size); ++i) {
-            const double* old = before.data() + i * simd::spin_fields;
-            const Vec mean = 0.5 * (Vec{old[0], old[1], old[2]} + state.turn(i));
-            const Quaternion q = rotation_by(mean) * state.orientation_of(i);
+            const Quaternion q = rotation_by(turned(state, i)) * state.orientation_of(i);
             const double scale = 1 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
             state.set_orientation(i, {scale * q.w, scale * q.x, scale * q.y, scale * q.z});
         }

@@ -6,9 +6,9 @@
 
 namespace sandlane::md {
 
-// From t to t + dt with the mean of the angular velocities at both ends, exactly as a rotation: of second
-// order, exact for a constant angular velocity, and always of length one to rounding. before: spin records at
-// t.
-void turn_grains(State& state, const Column<double>& before, int threads);
+// After a prediction: from t to t + dt by the integral of the angular velocity, which the integrator's
+// polynomial knows, as one rotation. Of second order, exact for a constant angular velocity, and always of
+// length one to rounding.
+void turn_grains(State& state, int threads);
 
 } // namespace sandlane::md

@@ -37,8 +37,7 @@ void Simulation::prepare_method() {
     lattice_ = Lattice();
     cells_ = LinkCells();
     lists_ = PairLists();
-    state_.double_records = plan_.neighbours == NeighbourMethod::verlet || plan_.orientation;
-    state_.keeps_forces = plan_.neighbours != NeighbourMethod::verlet;
+    state_.double_records = plan_.neighbours == NeighbourMethod::verlet;
     state_.resize_buffers();
     if (is_lattice(plan_.neighbours)) {
         lattice_ = Lattice(scene_, plan_, needs_.radius_max);
@@ -119,10 +118,6 @@ std::int64_t Simulation::next_stop(std::int64_t end) const {
 void Simulation::integrate(bool correct, bool predict) {
     const simd::MotionKernel kernel = motion_kernel(correct, predict);
     simd::MotionView whole = motion_view(force_step_);
-    if (state_.double_records) {
-        whole.new_records = state_.next_record.data();
-        whole.new_spins = state_.next_spin.data();
-    }
     const std::size_t n = state_.size();
     const bool on_lattice = predict && is_lattice(plan_.neighbours);
     motion_results_.assign(state_.tiles(), {});
@@ -135,14 +130,7 @@ void Simulation::integrate(bool correct, bool predict) {
         if (on_lattice && motion_results_[tile].outside == 0)
             lattice_.leave(state_, kernels_->plane.bin, begin, end);
     });
-    if (state_.double_records) use_new_records(predict);
     if (predict) check_motion();
-}
-
-void Simulation::use_new_records(bool predicted) {
-    state_.record.swap(state_.next_record);
-    state_.spin.swap(state_.next_spin);
-    if (predicted && plan_.orientation) turn_grains(state_, state_.next_spin, plan_.threads);
 }
 
 simd::MotionKernel Simulation::motion_kernel(bool correct, bool predict) const {
@@ -175,7 +163,8 @@ void Simulation::forces_and_motion(bool predict) {
     check_walls();
     add_wall_work();
     ++force_step_;
-    use_new_records(predict);
+    state_.record.swap(state_.next_record);
+    state_.spin.swap(state_.next_spin);
     if (predict) check_motion();
 }
 
@@ -190,8 +179,10 @@ double* Simulation::add_tile_forces(std::size_t tile) {
     return force;
 }
 
-// After a prediction: guards on the speed, lists and lattice follow the grains, grains outside leave.
+// After a prediction: orientations, guards on the speed, lists and lattice follow the grains, grains outside
+// leave.
 void Simulation::check_motion() {
+    if (plan_.orientation) turn_grains(state_, plan_.threads);
     double shift2 = 0;
     std::int64_t outside = 0;
     for (const simd::MotionResult& r : motion_results_) {

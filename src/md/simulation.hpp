@@ -79,7 +79,6 @@ private:
 
     void integrate(bool correct, bool predict);
     void forces_and_motion(bool predict);
-    void use_new_records(bool predicted);
     void check_motion();
     void bin();
     void pair_forces();

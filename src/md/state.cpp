@@ -52,7 +52,7 @@ void State::resize_buffers() {
     const std::size_t rows = padded(size()) + block_width;
     next_record.resize(double_records ? record.size() : 0, 0.0);
     next_spin.resize(double_records ? spin.size() : 0, 0.0);
-    force.resize(keeps_forces ? rows * force_stride() : 0, 0.0);
+    force.resize(double_records ? 0 : rows * force_stride(), 0.0);
 }
 
 // Padding lanes go through the integrator like particles; gravity must not carry them to infinity for ever.

@@ -26,8 +26,8 @@ struct State {
     // Nordsieck-scaled (docs/physics.md 7).
     Column<double> record, spin, gear;
     Column<double> next_record, next_spin; // where forces and motion share one pass (double_records)
-    bool double_records = false, keeps_forces = true;
-    Column<double> force;       // [particle][force_stride], zero between steps (keeps_forces)
+    bool double_records = false;
+    Column<double> force;       // [particle][force_stride], zero between steps; not with double_records
     Column<double> orientation; // [particle][w, x, y, z], where it is followed
     Column<double> mass, inverse_mass;
     Column<std::int32_t> material;

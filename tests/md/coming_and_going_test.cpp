@@ -114,6 +114,23 @@ TEST(Orientation, FollowsAConstantSpinExactly) {
     EXPECT_NEAR(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 1, 4e-16);
 }
 
+TEST(Orientation, DoesNotDependOnHowARunIsCut) {
+    scene::Scene s = test::space_scene(4);
+    s.md.orientation = true;
+    for (const auto method : {scene::NeighbourMethod::verlet, scene::NeighbourMethod::link_cells}) {
+        s.md.neighbours = method;
+        md::Simulation straight =
+            test::make_simulation(s, test::space_grains(4), simd::available_isas().back(), 2);
+        straight.run(300);
+        md::Simulation stepped = test::make_simulation(s, test::space_grains(4), simd::Isa::scalar);
+        for (int n = 0; n < 150; ++n) stepped.run(1);
+        md::Simulation last = test::make_simulation(s, test::space_grains(4), simd::available_isas().back());
+        last.restore(stepped.serialise());
+        last.run(150);
+        EXPECT_EQ(last.state_hash(), straight.state_hash());
+    }
+}
+
 // Spins change within a contact that lasts: half the step, a quarter of the error.
 TEST(Orientation, IsOfSecondOrder) {
     const auto run = [](std::int64_t steps) {
