@@ -81,13 +81,13 @@ struct CohesiveViscoelastic {
     template <class R> static SANDLANE_INLINE R area(const NormalInput<R>& c) {
         return R(12.566370614359172) * c.overlap * c.reduced_radius;
     }
-    template <class R> static SANDLANE_INLINE NormalForce<R> force(const NormalInput<R>& c, R* held) {
-        const NormalForce<R> push = Viscoelastic::force(c, held);
+    template <class R> static SANDLANE_INLINE NormalForce<R> force(const NormalInput<R>& c, R* none) {
+        const NormalForce<R> push = Viscoelastic::force(c, none);
         return {push.force - c.cohesion * area(c), push.load};
     }
     // The pull's potential is the negative of half its product with the overlap.
-    template <class R> static SANDLANE_INLINE R energy(const NormalInput<R>& c, const R* held) {
-        return Viscoelastic::energy(c, held) - R(0.5) * c.cohesion * area(c) * c.overlap;
+    template <class R> static SANDLANE_INLINE R energy(const NormalInput<R>& c, const R* none) {
+        return Viscoelastic::energy(c, none) - R(0.5) * c.cohesion * area(c) * c.overlap;
     }
 };
 

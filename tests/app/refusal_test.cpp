@@ -237,10 +237,10 @@ TEST_F(Refusals, Threads) {
 
 // Coefficients that do not fit the chosen laws, or would do nothing.
 TEST_F(Refusals, ContactLaws) {
-    const auto refused = [&](std::vector<std::string> settings) {
+    const auto refused = [&](const std::vector<std::string>& settings) {
         std::vector<std::string> arguments;
         for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
-        const std::string message = refused_run(Exit::invalid_input, arguments);
+        std::string message = refused_run(Exit::invalid_input, arguments);
         EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
         return message;
     };

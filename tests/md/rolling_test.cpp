@@ -237,8 +237,8 @@ TEST_P(OnAPlane, RollingFrictionOfTwoGrains) {
     const double omega = 100, twist = GetParam().dimension == 3 ? 7 : 0;
     std::vector<scene::GrainState> grains;
     for (const double side : {-1.0, 1.0}) {
-        grains.push_back(grain(grains.size() == 0 ? 0 : 1, {side * (radius - 0.5 * overlap), 0, 0}, {},
-                               radius, mass, side * omega));
+        grains.push_back(grain(grains.empty() ? 0 : 1, {side * (radius - 0.5 * overlap), 0, 0}, {}, radius,
+                               mass, side * omega));
         grains.back().angular_velocity = {side * twist, 0, side * omega};
     }
     md::Simulation sim = simulate(s, grains);
