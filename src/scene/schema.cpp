@@ -118,7 +118,7 @@ const Table<Material>& material_table() {
             .number("dissipation", &Material::dissipation, Unit::time, not_negative(),
                     "dissipative constant A (viscoelastic)")
             .number("friction", &Material::friction, Unit::none, not_negative(),
-                    "Coulomb friction coefficient mu (Haff-Werner)")
+                    "Coulomb friction coefficient mu of the tangential laws")
             .number("tangential_damping", &Material::tangential_damping, Unit::damping, not_negative(),
                     "tangential damping constant gamma_t (Haff-Werner: 0 is no friction; Cundall-Strack: "
                     "beside the spring)")
