@@ -80,7 +80,7 @@ TEST(Random, ThirdNumbersAreIndependentOfTheFirstTwo) {
         const auto u = random.uniform3(n), x = random.normal3(n);
         EXPECT_EQ((std::array{u[0], u[1]}), random.uniform2(n));
         EXPECT_EQ((std::array{x[0], x[1]}), random.normal2(n));
-        for (const int other : {0, 1}) {
+        for (const std::size_t other : {0U, 1U}) {
             uniform.add(u[2] - 0.5, u.at(other) - 0.5);
             normal.add(x[2], x.at(other));
         }
