@@ -94,6 +94,28 @@ void PairLists::update(const State& state, const simd::PairView& pairs, const si
     refresh(state, pairs, kernels, threads, rebuild);
 }
 
+// Largest square of a displacement since the last build among the grains of a tile.
+template <int dimension>
+double PairLists::largest_square(const State& state, const simd::PairView& pairs, std::size_t tile) const {
+    double largest = 0;
+    for (std::size_t i = tile * tile_size; i < std::min(state.size(), (tile + 1) * tile_size); ++i) {
+        if (shear_rate_ != 0) {
+            const Vec moved = displacement(state, pairs, i);
+            largest = std::max(largest, dot(moved, moved));
+            continue;
+        }
+        const double *now = state.record_of(i), *built = built_.data() + i * dimension;
+        double square = 0;
+        for (int d = 0; d < dimension; ++d) {
+            double x = now[d] - built[d];
+            x = x < -pairs.half[d] ? x + pairs.period[d] : x > pairs.half[d] ? x - pairs.period[d] : x;
+            square += x * x;
+        }
+        largest = std::max(largest, square);
+    }
+    return largest;
+}
+
 // Of a grain since the last build; with a seam beyond what the shear flow through its place did.
 Vec PairLists::displacement(const State& state, const simd::PairView& pairs, std::size_t i) const {
     const auto dimension = static_cast<std::size_t>(state.dimension);
@@ -106,7 +128,7 @@ Vec PairLists::displacement(const State& state, const simd::PairView& pairs, std
                     shear_rate_ * (built[1] - 0.5 * (lower_.y + upper_.y)) * (time_ - built_time_);
         moved[1] += crossed * height;
     }
-    for (std::size_t d = 0; d < dimension; ++d)
+    for (std::size_t d = 0; d < dimension; ++d) // a seam's term may span several periods
         if (pairs.period[d] > 0) moved[d] -= pairs.period[d] * std::nearbyint(moved[d] / pairs.period[d]);
     return {moved[0], moved[1], moved[2]};
 }
@@ -115,12 +137,8 @@ Vec PairLists::displacement(const State& state, const simd::PairView& pairs, std
 // skin. A shear flow moves one against the other by its rate and their distance.
 bool PairLists::outer_valid(const State& state, const simd::PairView& pairs, int threads) {
     for_tiles(tiles_.size(), threads, [&](std::size_t index) {
-        double largest = 0;
-        for (std::size_t i = index * tile_size; i < std::min(state.size(), (index + 1) * tile_size); ++i) {
-            const Vec moved = displacement(state, pairs, i);
-            largest = std::max(largest, dot(moved, moved));
-        }
-        tiles_[index].largest_square = largest;
+        tiles_[index].largest_square = state.dimension == 3 ? largest_square<3>(state, pairs, index)
+                                                            : largest_square<2>(state, pairs, index);
     });
     double largest = 0;
     for (const Tile& t : tiles_) largest = std::max(largest, t.largest_square);

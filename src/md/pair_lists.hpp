@@ -77,6 +77,9 @@ private:
     Column<double> built_;             // positions at the last build, [grain][dimension]
     Column<std::int32_t> built_image_; // and images along y, with a seam
     Vec lower_, upper_;
+    template <int dimension>
+    [[nodiscard]] double largest_square(const State& state, const simd::PairView& pairs,
+                                        std::size_t tile) const;
     [[nodiscard]] Vec displacement(const State& state, const simd::PairView& pairs, std::size_t i) const;
 
     double skin_ = 0, near_skin_ = 0, near_budget_ = 0;
