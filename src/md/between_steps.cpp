@@ -79,15 +79,14 @@ void Simulation::fail_overlap() const {
     const auto centre = [&](std::size_t i) { return state_.position(i); };
     double worst = -infinity, distance = 0;
     std::size_t first = 0, second = 0;
-    for_near_pairs(box(static_cast<double>(force_step_) * plan_.dt), state_, centre,
-                   [&](std::size_t i, std::size_t j, Vec d) {
-                       const double overlap = state_.radius(i) + state_.radius(j) - norm(d);
-                       if (overlap <= worst) return;
-                       worst = overlap;
-                       distance = norm(d);
-                       first = std::min(state_.id[i], state_.id[j]) == state_.id[i] ? i : j;
-                       second = first == i ? j : i;
-                   });
+    for_near_pairs(box(force_time()), state_, centre, [&](std::size_t i, std::size_t j, Vec d) {
+        const double overlap = state_.radius(i) + state_.radius(j) - norm(d);
+        if (overlap <= worst) return;
+        worst = overlap;
+        distance = norm(d);
+        first = std::min(state_.id[i], state_.id[j]) == state_.id[i] ? i : j;
+        second = first == i ? j : i;
+    });
     fail(Exit::unstable,
          "step {}, t = {:.6g} s: grains {} and {} overlap by {:.4g} m, their centres are {:.4g} m apart "
          "(allowed: R_min = {:.4g} m). The material is too soft for this load, or the time step too large: "

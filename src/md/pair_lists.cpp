@@ -84,7 +84,8 @@ simd::TileList PairLists::tile(std::size_t index, const State& state) {
 }
 
 void PairLists::update(const State& state, const simd::PairView& pairs, const simd::DimensionKernels& kernels,
-                       int threads) {
+                       int threads, double time) {
+    time_ = time;
     if (!stale_ && near_budget_ >= 0) return;
     const bool rebuild = stale_ || !outer_valid(state, pairs, threads);
     if (rebuild) {
@@ -116,18 +117,16 @@ double PairLists::largest_square(const State& state, const simd::PairView& pairs
     return largest;
 }
 
-// Of a grain since the last build; with a seam beyond what the shear flow through its place did.
+// With a seam: of a grain since the last build, beyond what the shear flow through its place did.
 Vec PairLists::displacement(const State& state, const simd::PairView& pairs, std::size_t i) const {
     const auto dimension = static_cast<std::size_t>(state.dimension);
     const double *now = state.record_of(i), *built = built_.data() + i * dimension;
     double moved[3] = {};
     for (std::size_t d = 0; d < dimension; ++d) moved[d] = now[d] - built[d];
-    if (shear_rate_ != 0) {
-        const double height = pairs.period[1], crossed = state.image[1][i] - built_image_[i];
-        moved[0] += crossed * pairs.seam -
-                    shear_rate_ * (built[1] - 0.5 * (lower_.y + upper_.y)) * (time_ - built_time_);
-        moved[1] += crossed * height;
-    }
+    const double height = pairs.period[1], crossed = state.image[1][i] - built_image_[i];
+    moved[0] +=
+        crossed * pairs.seam - shear_rate_ * (built[1] - 0.5 * (lower_.y + upper_.y)) * (time_ - built_time_);
+    moved[1] += crossed * height;
     for (std::size_t d = 0; d < dimension; ++d) // a seam's term may span several periods
         if (pairs.period[d] > 0) moved[d] -= pairs.period[d] * std::nearbyint(moved[d] / pairs.period[d]);
     return {moved[0], moved[1], moved[2]};

@@ -19,8 +19,6 @@ public:
     PairLists() = default;
     PairLists(const scene::Scene& scene, const Plan& plan, const Needs& needs);
 
-    // With Lees-Edwards seams also the time of the records, s, before update().
-    void set_time(double time) { time_ = time; }
     // Grains moved by at most `distance` [m] since the last call.
     void account(double distance) { near_budget_ -= distance; }
     // Before the storage order changes.
@@ -28,9 +26,10 @@ public:
     // What the contacts of laws that remember hold now, and the way back before the next update.
     [[nodiscard]] ContactMemory memory(const State& state) const;
     void adopt(ContactMemory memory);
-    // Before forces at the positions of the records: lists hold every pair that touches, afterwards.
+    // Before forces at the positions of the records, of time `time` [s]: lists hold every pair that touches,
+    // afterwards.
     void update(const State& state, const simd::PairView& pairs, const simd::DimensionKernels& kernels,
-                int threads);
+                int threads, double time);
 
     [[nodiscard]] simd::TileList tile(std::size_t index, const State& state);
     [[nodiscard]] std::size_t bytes() const;

@@ -146,8 +146,7 @@ void Simulation::forces_and_motion(bool predict) {
     whole.new_records = state_.next_record.data();
     whole.new_spins = state_.next_spin.data();
     move_walls();
-    lists_.set_time(static_cast<double>(force_step_) * plan_.dt);
-    lists_.update(state_, pair_view(), kernels(), plan_.threads);
+    lists_.update(state_, pair_view(), kernels(), plan_.threads, force_time());
     const std::size_t n = state_.size();
     motion_results_.assign(state_.tiles(), {});
     wall_results_.assign(state_.tiles(), {});
@@ -210,7 +209,7 @@ void Simulation::check_motion() {
 }
 
 void Simulation::move_walls() {
-    walls_.move_to(static_cast<double>(force_step_) * plan_.dt);
+    walls_.move_to(force_time());
     walls_.update(state_, state_.record.data());
 }
 
@@ -234,8 +233,7 @@ std::vector<double> Simulation::take_forces() {
         return forces;
     }
     move_walls();
-    lists_.set_time(static_cast<double>(force_step_) * plan_.dt);
-    lists_.update(state_, pair_view(), kernels(), plan_.threads);
+    lists_.update(state_, pair_view(), kernels(), plan_.threads, force_time());
     tile_overlaps_.assign(state_.tiles(), 0.0);
     wall_results_.assign(state_.tiles(), {});
     for (std::size_t tile = 0; tile < state_.tiles(); ++tile) {
@@ -398,7 +396,7 @@ simd::PairView Simulation::pair_view() {
     view.dt = plan_.dt;
     view.inverse_dt = 1.0 / plan_.dt;
     view.sheared = scene_.domain.shear_rate != 0;
-    view.seam = seam(static_cast<double>(force_step_) * plan_.dt);
+    view.seam = seam(force_time());
     view.seam_shift = scene_.domain.shear_rate * size.y * plan_.dt;
     return view;
 }

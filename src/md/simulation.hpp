@@ -88,6 +88,8 @@ private:
     void compute_forces();
     [[nodiscard]] std::vector<double> take_forces();
     void move_walls();
+    // Of the positions that forces are wanted for next, s.
+    [[nodiscard]] double force_time() const { return static_cast<double>(force_step_) * plan_.dt; }
     [[nodiscard]] simd::MotionKernel motion_kernel(bool correct, bool predict) const;
     [[nodiscard]] const simd::DimensionKernels& kernels() const { return kernels_->in(plan_.dimension); }
     [[nodiscard]] const simd::DimensionKernels::Law& law() const {

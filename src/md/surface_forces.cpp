@@ -140,11 +140,7 @@ WallResult surface_forces(const Walls& walls, const WallInput& input, const Near
             if constexpr (couples)
                 result.power += f.couple.x * c.angular_velocity.x + f.couple.y * c.angular_velocity.y +
                                 f.couple.z * c.angular_velocity.z;
-            if (const double ratio = f.overlap / g.radius; ratio > result.largest_ratio) {
-                result.largest_ratio = ratio;
-                result.grain = static_cast<std::int64_t>(i);
-                result.wall = element.wall;
-            }
+            result.see(f.overlap / g.radius, i, element.wall);
         }
     }
     return result;

@@ -148,10 +148,7 @@ WallResult Walls::add_surface_forces(const WallInput& input, std::size_t begin, 
     for (std::size_t i = begin; i < end; ++i) {
         for (std::size_t e = 0; e < all.size(); ++e)
             all[e] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(e)};
-        const WallResult one = kernel_(*this, input, all.data(), all.data() + all.size());
-        const double power = worst.power + one.power;
-        if (one.largest_ratio > worst.largest_ratio) worst = one;
-        worst.power = power;
+        worst.add(kernel_(*this, input, all.data(), all.data() + all.size()));
     }
     return worst;
 }

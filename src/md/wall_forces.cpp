@@ -62,11 +62,7 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
         force[3] += f.couple;
         result.power += f.x * c.velocity.x + f.y * c.velocity.y - f.tangential * c.spin;
         if constexpr (couples) result.power += f.couple * c.angular_velocity.z;
-        const double ratio = f.overlap / g.radius;
-        if (ratio <= result.largest_ratio) continue;
-        result.largest_ratio = ratio;
-        result.grain = static_cast<std::int64_t>(i);
-        result.wall = element.wall;
+        result.see(f.overlap / g.radius, i, element.wall);
     }
     return result;
 }
@@ -201,19 +197,21 @@ void Walls::update(const State& state, const double* records) {
 
 // Where a grain at p may stand while the list lasts, but for the skin: there, or where a periodic side takes
 // it.
-std::vector<Vec> Walls::places(Vec p) const {
-    std::vector<Vec> all{p};
+Walls::Places Walls::places(Vec p) const {
+    Places all;
+    all.at[0] = p;
     constexpr double Vec::*axes[] = {&Vec::x, &Vec::y, &Vec::z};
     for (std::size_t d = 0; d < 3; ++d) {
-        const double Vec::*x = axes[d];
+        double Vec::*const x = axes[d];
         if (!periodic_[d]) continue;
         const double period = upper_.*x - lower_.*x;
         const bool low = p.*x < lower_.*x + skin_, high = p.*x >= upper_.*x - skin_;
-        const std::size_t known = all.size();
-        for (std::size_t n = 0; n < known && (low || high); ++n) {
-            Vec image = all[n];
-            image.*(axes[d]) += low ? period : -period;
-            all.push_back(image);
+        if (!low && !high) continue;
+        const std::size_t known = all.count;
+        for (std::size_t n = 0; n < known; ++n) {
+            Vec& image = all.at[all.count++];
+            image = all.at[n];
+            image.*x += low ? period : -period;
         }
     }
     return all;
@@ -268,10 +266,7 @@ WallResult Walls::add_forces(WallInput input, std::size_t tile, std::size_t grai
             const double* r = input.records + i * simd::record_fields;
             if (!box_reaches(elements_[e], {r[0], r[1], 0}, r[5])) continue;
             const NearWall pair{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(e)};
-            const WallResult one = kernel_(*this, input, &pair, &pair + 1);
-            const double power = worst.power + one.power;
-            if (one.largest_ratio > worst.largest_ratio) worst = one;
-            worst.power = power;
+            worst.add(kernel_(*this, input, &pair, &pair + 1));
         }
     return worst;
 }

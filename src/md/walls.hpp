@@ -55,6 +55,19 @@ struct WallResult {
     std::int64_t grain = -1;  // where, storage index
     int wall = -1;
     double power = 0; // W, given by moving walls to the grains
+
+    // One contact.
+    void see(double ratio, std::size_t of_grain, int with_wall) {
+        if (ratio <= largest_ratio) return;
+        largest_ratio = ratio;
+        grain = static_cast<std::int64_t>(of_grain);
+        wall = with_wall;
+    }
+    // Those of other grains.
+    void add(const WallResult& other) {
+        power += other.power;
+        if (other.grain >= 0) see(other.largest_ratio, static_cast<std::size_t>(other.grain), other.wall);
+    }
 };
 
 // One near grain and element of the candidate list.
@@ -157,7 +170,13 @@ private:
                                                 std::size_t end) const;
     [[nodiscard]] std::vector<analysis::WallShape> surface_shapes() const;
 
-    [[nodiscard]] std::vector<Vec> places(Vec p) const;
+    struct Places {
+        std::array<Vec, 8> at; // one periodic image per direction at most
+        std::size_t count = 1;
+        [[nodiscard]] const Vec* begin() const { return at.data(); }
+        [[nodiscard]] const Vec* end() const { return at.data() + count; }
+    };
+    [[nodiscard]] Places places(Vec p) const;
     void rebuild(const State& state, const double* records);
     void list_near_elements(const State& state, const double* records);
     void add_wall(const scene::Scene& scene, std::size_t index);

@@ -85,8 +85,8 @@ public:
             const BookRecord& r = book_.records[k];
             if (r.type < 0 || r.type > 6)
                 fail(Exit::invalid_input,
-                     "{}: record {}, column 9 (ptype): type {} not implemented; allowed: 0 to 6", file_,
-                     k + 1, r.type);
+                     "{}: record {}, column 9 (ptype): type {} is unknown; allowed: 0 to 6", file_, k + 1,
+                     r.type);
             if (r.type == 0)
                 add_grain(r);
             else

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/rng.hpp"
+#include "scene/lookup.hpp"
 #include "scene/packing.hpp"
 #include "scene/radius_law.hpp"
 #include "scene/space.hpp"
@@ -12,12 +13,6 @@
 namespace sandlane::scene {
 
 namespace {
-
-int material_index(const Scene& scene, const std::string& name) {
-    for (std::size_t m = 0; m < scene.materials.size(); ++m)
-        if (scene.materials[m].name == name) return static_cast<int>(m);
-    return 0;
-}
 
 struct Region {
     Vec lower, upper;
