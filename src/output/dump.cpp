@@ -46,10 +46,7 @@ void append_grain(const Snapshot& s, std::size_t i, std::string& text) {
     const Vec at = s.position(i), v = s.velocity(i);
     append_numbers(text, s.id[i], std::int64_t{s.material[i]} + 1, at.x, at.y, at.z, v.x, v.y, v.z,
                    s.radius[i], s.mass[i]);
-    if (s.dimension == 2)
-        append_numbers(text, s.omega[i], s.angle[i]);
-    else
-        append_numbers(text, s.omega_x[i], s.omega_y[i], s.omega[i]);
+    append_spin(s, i, text);
     if (!s.orientation.empty()) {
         const Quaternion& q = s.orientation[i];
         append_numbers(text, q.w, q.x, q.y, q.z);

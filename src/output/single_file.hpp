@@ -2,9 +2,18 @@
 #pragma once
 
 #include "core/file.hpp"
+#include "output/text.hpp"
 #include "output/writers.hpp"
 
 namespace sandlane::output {
+
+// How a grain turns: spin and angle in the plane, the angular velocity in space.
+inline void append_spin(const analysis::Snapshot& s, std::size_t i, std::string& text) {
+    if (s.dimension == 2)
+        append_numbers(text, s.omega[i], s.angle[i]);
+    else
+        append_numbers(text, s.omega_x[i], s.omega_y[i], s.omega[i]);
+}
 
 class SingleFileWriter : public TrajectoryWriter {
 public:
