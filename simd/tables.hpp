@@ -157,11 +157,11 @@ using BinKernel = void (*)(const BinView&, std::int64_t begin, std::int64_t end)
 
 // Kernels of the plane or of space.
 struct DimensionKernels {
-    // [couples][many materials]; null for laws that remember, which need lists, and for laws that the
+    // [laws::Couples][many materials]; null for laws that remember, which need lists, and for laws that the
     // dimension does not have
     struct Law {
-        PairKernel pair[2][2];
-        TileKernel tile[2][2];
+        PairKernel pair[laws::couple_kinds][2];
+        TileKernel tile[laws::couple_kinds][2];
     };
     Law law[laws::normal_laws][laws::tangential_laws];
     CellKernel cells;

@@ -63,6 +63,7 @@ gather_coefficients(const PairView& view, const std::int32_t* i, const std::int3
             load<Arch>(lanes[5]),
             load<Arch>(lanes[6]),
             load<Arch>(lanes[7]),
+            load<Arch>(lanes[8]),
             R(view.coefficients[laws::pair_coefficients - 2]),
             R(view.coefficients[laws::pair_coefficients - 1])};
 }
@@ -72,7 +73,7 @@ template <class R> SANDLANE_INLINE Vector<R> vector(const R* component, const R&
 }
 
 // The relative state of eight pairs from their combined records.
-template <class Arch, int dimension, class Tangential, bool couples>
+template <class Arch, int dimension, class Tangential, laws::Couples couples>
 SANDLANE_INLINE laws::ContactState<dimension, Block<Arch>>
 contact_state(const PairView& view, const std::int32_t* i, const std::int32_t* j,
               const Block<Arch> (&field)[record_fields]) {
@@ -96,7 +97,7 @@ contact_state(const PairView& view, const std::int32_t* i, const std::int32_t* j
         state.spin = vector(spin, rate);
         state.turn = vector(turn, rate);
     }
-    if constexpr (couples) {
+    if constexpr (couples != laws::Couples::none) {
         const Turns<Arch, dimension> turns(view.records, view.spins, i, j);
         if constexpr (dimension == 2) {
             state.turn = rate * turns.turn[0];
@@ -152,12 +153,13 @@ SANDLANE_INLINE void add_forces(double* force, const std::int32_t* i, const std:
     }
 }
 
-template <class Tangential, bool couples>
-inline constexpr Rotation rotation_of = couples                  ? Rotation::couples
-                                        : Tangential::needs_spin ? Rotation::friction
-                                                                 : Rotation::none;
+template <class Tangential, laws::Couples couples>
+inline constexpr Rotation rotation_of = couples != laws::Couples::none ? Rotation::couples
+                                        : Tangential::needs_spin       ? Rotation::friction
+                                                                       : Rotation::none;
 
-template <class Arch, int dimension, class Normal, class Tangential, bool couples, bool many_materials>
+template <class Arch, int dimension, class Normal, class Tangential, laws::Couples couples,
+          bool many_materials>
 double pair_forces(const PairView& view, const std::int32_t* i, const std::int32_t* j, std::int32_t count,
                    Target target, double largest_overlap) {
     using R = Block<Arch>;

@@ -31,9 +31,10 @@ struct Reads {
     }
     bool operator==(const Reads&) const = default;
 };
-template <int dimension, class Normal, class Tangential, bool couples>
-inline constexpr Reads reads_of{Tangential::needs_spin, Normal::needs_radius || couples,
-                                memory_row(laws::memory_of<Normal, Tangential, dimension>)};
+template <int dimension, class Normal, class Tangential, laws::Couples couples>
+inline constexpr Reads reads_of{Tangential::needs_spin,
+                                Normal::needs_radius || couples != laws::Couples::none,
+                                memory_row(laws::memory_of<Normal, Tangential, couples, dimension>)};
 
 // A contact that begins has nothing to remember: laws know it by `no_contact`.
 template <int doubles>
@@ -140,10 +141,12 @@ SANDLANE_INLINE void store_memory(const Block<Arch> (&held)[memory + 1], double*
     }
 }
 
-template <class Arch, int dimension, class Normal, class Tangential, bool couples, bool many_materials>
+template <class Arch, int dimension, class Normal, class Tangential, laws::Couples couples,
+          bool many_materials>
 double tile_forces(const PairView& view, const TileList& list, double* force, double largest_overlap) {
     using R = Block<Arch>;
-    constexpr int memory = laws::memory_of<Normal, Tangential, dimension>, doubles = memory_row(memory);
+    constexpr int memory = laws::memory_of<Normal, Tangential, couples, dimension>,
+                  doubles = memory_row(memory);
     constexpr int fields = force_stride(dimension, rotation_of<Tangential, couples>);
     using Row = ForceRow<Arch, dimension, fields>;
     constexpr Reads reads = reads_of<dimension, Normal, Tangential, couples>;

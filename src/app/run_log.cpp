@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
-#include <string_view>
 
 namespace sandlane::app {
 
@@ -15,7 +14,7 @@ namespace {
 struct Entry {
     const char *name, *unit;
     double (*value)(const md::Simulation&, const md::Observables&);
-    int only = 0;
+    Of of = all_scenes;
 };
 
 using Sim = const md::Simulation&;
@@ -35,7 +34,7 @@ constexpr Entry entries[] = {
     {"dissipated_energy", "J", [](Sim s, Obs o) { return s.dissipated(o); }},
     {"momentum_x", "kg m/s", [](Sim, Obs o) { return o.momentum.x; }},
     {"momentum_y", "kg m/s", [](Sim, Obs o) { return o.momentum.y; }},
-    {"momentum_z", "kg m/s", [](Sim, Obs o) { return o.momentum.z; }, 3},
+    {"momentum_z", "kg m/s", [](Sim, Obs o) { return o.momentum.z; }, in_space},
     {"contacts", "1", [](Sim, Obs o) { return static_cast<double>(o.contacts); }},
     {"wall_contacts", "1", [](Sim, Obs o) { return static_cast<double>(o.wall_contacts); }},
     {"largest_overlap", "R_min", [](Sim, Obs o) { return o.largest_overlap; }},
@@ -46,16 +45,16 @@ constexpr Entry entries[] = {
 struct WallEntry {
     const char *name, *unit;
     double (*value)(const md::WallLoad&);
-    int only = 0;
+    Of of = all_scenes;
 };
 constexpr WallEntry wall_entries[] = {
     {"force_x", "N", [](const md::WallLoad& w) { return w.force.x; }},
     {"force_y", "N", [](const md::WallLoad& w) { return w.force.y; }},
-    {"force_z", "N", [](const md::WallLoad& w) { return w.force.z; }, 3},
-    {"torque", "N m", [](const md::WallLoad& w) { return w.torque.z; }, 2},
-    {"torque_x", "N m", [](const md::WallLoad& w) { return w.torque.x; }, 3},
-    {"torque_y", "N m", [](const md::WallLoad& w) { return w.torque.y; }, 3},
-    {"torque_z", "N m", [](const md::WallLoad& w) { return w.torque.z; }, 3},
+    {"force_z", "N", [](const md::WallLoad& w) { return w.force.z; }, in_space},
+    {"torque", "N m", [](const md::WallLoad& w) { return w.torque.z; }, in_plane},
+    {"torque_x", "N m", [](const md::WallLoad& w) { return w.torque.x; }, in_space},
+    {"torque_y", "N m", [](const md::WallLoad& w) { return w.torque.y; }, in_space},
+    {"torque_z", "N m", [](const md::WallLoad& w) { return w.torque.z; }, in_space},
     {"power", "W", [](const md::WallLoad& w) { return w.power; }},
 };
 
@@ -85,20 +84,20 @@ void for_entries(const Entries& table, const scene::Domain& domain, const Body& 
 
 std::vector<analysis::LogColumn> log_columns(const scene::Scene& scene) {
     std::vector<analysis::LogColumn> columns;
-    for_entries(entries, scene.domain, [&](const Entry& e) { columns.push_back({e.name, e.unit}); });
+    for_entries(entries, scene, [&](const Entry& e) { columns.push_back({e.name, e.unit}); });
     for (std::size_t wall = 0; wall < scene.walls.size(); ++wall)
-        for_entries(wall_entries, scene.domain, [&](const WallEntry& e) {
+        for_entries(wall_entries, scene, [&](const WallEntry& e) {
             columns.push_back({fmt::format("{}_{}", wall_name(scene, wall), e.name), e.unit});
         });
     return columns;
 }
 
 std::vector<double> log_row(const md::Simulation& simulation, const md::Observables& observed) {
-    const scene::Domain& domain = simulation.scene().domain;
+    const scene::Scene& scene = simulation.scene();
     std::vector<double> row;
-    for_entries(entries, domain, [&](const Entry& e) { row.push_back(e.value(simulation, observed)); });
+    for_entries(entries, scene, [&](const Entry& e) { row.push_back(e.value(simulation, observed)); });
     for (const md::WallLoad& load : observed.walls)
-        for_entries(wall_entries, domain, [&](const WallEntry& e) { row.push_back(e.value(load)); });
+        for_entries(wall_entries, scene, [&](const WallEntry& e) { row.push_back(e.value(load)); });
     return row;
 }
 

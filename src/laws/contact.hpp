@@ -2,6 +2,7 @@
 // text that pair kernels, walls, references and analyses share.
 #pragma once
 
+#include "laws/count.hpp"
 #include "laws/normal.hpp"
 #include "laws/rolling.hpp"
 #include "laws/tangential.hpp"
@@ -18,26 +19,38 @@ template <class R> struct PairCoefficients {
     R cohesion{};                   // Pa
     R rolling_friction{};           // mu_r
     R rolling_damping{};            // gamma_r [N m s]
+    R rolling_stiffness{};          // k_r [N m]
     R least{};                      // N, see NormalInput
     R lever{};                      // 0: lever arms R_i; 1: distances to the plane of the contact (1.8)
 };
-inline constexpr int pair_coefficients = 10; // doubles of one entry of a material pair table
+inline constexpr int pair_coefficients = 11; // doubles of one entry of a material pair table
 inline constexpr int scene_coefficients = 2; // the last of them, equal for all pairs
 template <class R> SANDLANE_INLINE PairCoefficients<R> coefficients_from(const double* e) {
-    return {R(e[0]), R(e[1]), R(e[2]), R(e[3]), R(e[4]), R(e[5]), R(e[6]), R(e[7]), R(e[8]), R(e[9])};
+    return {R(e[0]), R(e[1]), R(e[2]), R(e[3]), R(e[4]), R(e[5]),
+            R(e[6]), R(e[7]), R(e[8]), R(e[9]), R(e[10])};
 }
 
-// Numbers that a contact of these laws remembers: the tangential law's, then the normal law's. The first
-// number of a contact that begins is `no_contact`.
+// Numbers that a contact of these laws remembers: the rolling spring's, then the tangential law's, then the
+// normal law's. The first number of a contact that begins is `no_contact`.
+template <Couples couples, int dimension>
+inline constexpr int rolling_memory = couples != Couples::sprung ? 0
+                                      : dimension == 3           ? 3
+                                                                 : 1;
 template <class Tangential, int dimension>
 inline constexpr int tangential_memory = dimension == 3 ? Tangential::memory_in_space : Tangential::memory;
-template <class Normal, class Tangential, int dimension>
-inline constexpr int memory_of = tangential_memory<Tangential, dimension> + Normal::memory;
-inline constexpr int most_memory = 5;
+template <class Normal, class Tangential, Couples couples, int dimension>
+inline constexpr int memory_of =
+    rolling_memory<couples, dimension> + tangential_memory<Tangential, dimension> + Normal::memory;
+inline constexpr int most_memory = 7;
 inline constexpr double no_contact = 1e300;
 
 template <class Tangential, int dimension>
 inline constexpr bool exists_in = dimension == 2 || Tangential::in_space;
+// Couples act on spins; a grain that rolling friction is to hold must not creep either.
+template <class Tangential, Couples couples>
+inline constexpr bool exists_with = couples == Couples::none ||
+                                    (Tangential::needs_spin &&
+                                     (couples == Couples::damped || Tangential::memory > 0));
 
 // A contact that begins remembers zeros, and no time has passed since its last evaluation.
 template <int memory, class R> SANDLANE_INLINE R begin_contact(R* held, const R& elapsed) {
@@ -104,21 +117,23 @@ template <bool reduced, class R> struct Inverses {
 // overlap <= 0 means no contact and gives exact zeros. Coincident centres must have been excluded. `memory`
 // of the contact is brought up to the present, `elapsed` [s] after the last time; laws without memory do
 // without both.
-template <class Normal, class Tangential, bool couples = false, class R>
+template <class Normal, class Tangential, Couples couples = Couples::none, class R>
 SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoefficients<R>& c,
                                         R* memory = nullptr, const R& elapsed = R(0.0)) {
-    const R time = begin_contact<memory_of<Normal, Tangential, 2>>(memory, elapsed);
+    const R time = begin_contact<memory_of<Normal, Tangential, couples, 2>>(memory, elapsed);
+    constexpr bool has_couples = couples != Couples::none;
+    R* const tangential = memory + rolling_memory<couples, 2>;
     const R zero(0.0), distance = sqrt(s.dx * s.dx + s.dy * s.dy);
-    const Inverses<Normal::needs_radius || couples, R> inverse(distance, s.inverse_radii);
+    const Inverses<Normal::needs_radius || has_couples, R> inverse(distance, s.inverse_radii);
     const R overlap = s.radius_sum - distance;
     const R nx = s.dx * inverse.distance, ny = s.dy * inverse.distance;
     const R rate = -(s.dvx * nx + s.dvy * ny);
     const auto touching = overlap > zero;
     const NormalForce<R> f_n = normal_force<Normal>(select(touching, overlap, zero), rate, c, inverse.radii,
-                                                    memory + Tangential::memory);
+                                                    tangential + Tangential::memory);
     R spin = s.spin, share(1.0);
     Levers<R> arm{s.radius, zero};
-    if constexpr (couples) {
+    if constexpr (has_couples) {
         arm = levers(distance, s.radius, s.other, s.square_difference, c.lever);
         spin = R(0.5) * ((arm.first + arm.second) * s.turn + (arm.first - arm.second) * s.differ);
         share = (arm.first + arm.second) / s.radius_sum;
@@ -126,13 +141,18 @@ SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoeffic
     const R v_t = Tangential::needs_spin ? s.dvx * ny - s.dvy * nx + spin : zero;
     const R f_t = Tangential::force(
         TangentialInput<R>{f_n.load, v_t, c.tangential_damping, c.friction, c.tangential_stiffness, time},
-        memory);
+        tangential);
     PairForce<R> f{select(touching, -(f_n.force * nx) - f_t * ny, zero),
                    select(touching, f_t * nx - f_n.force * ny, zero), select(touching, f_t, zero), overlap};
-    if constexpr (couples) {
+    if constexpr (has_couples) {
         const R limit = c.rolling_friction * inverse.radii * f_n.load;
-        const R couple =
-            (arm.first - s.radius * share) * f_t + rolling_couple(s.differ, c.rolling_damping, limit);
+        R rolling;
+        if constexpr (couples == Couples::sprung)
+            rolling = rolling_couple(s.differ, c.rolling_damping, limit,
+                                     RollingSpring<R>{c.rolling_stiffness, time}, memory);
+        else
+            rolling = rolling_couple(s.differ, c.rolling_damping, limit);
+        const R couple = (arm.first - s.radius * share) * f_t + rolling;
         f.tangential = share * f.tangential;
         f.couple = select(touching, couple, zero);
     }
@@ -158,23 +178,25 @@ template <class R> struct SpatialForce {
     Vector<R> couple{};
 };
 
-template <class Normal, class Tangential, bool couples = false, class R>
+template <class Normal, class Tangential, Couples couples = Couples::none, class R>
 SANDLANE_INLINE SpatialForce<R> pair_force(const SpatialState<R>& s, const PairCoefficients<R>& c,
                                            R* memory = nullptr, const R& elapsed = R(0.0)) {
-    const R time = begin_contact<memory_of<Normal, Tangential, 3>>(memory, elapsed);
+    const R time = begin_contact<memory_of<Normal, Tangential, couples, 3>>(memory, elapsed);
+    constexpr bool has_couples = couples != Couples::none;
+    R* const tangential = memory + rolling_memory<couples, 3>;
     const R zero(0.0), distance = sqrt(dot(s.d, s.d));
-    const Inverses<Normal::needs_radius || couples, R> inverse(distance, s.inverse_radii);
+    const Inverses<Normal::needs_radius || has_couples, R> inverse(distance, s.inverse_radii);
     const R overlap = s.radius_sum - distance;
     const Vector<R> n = inverse.distance * s.d, none{zero, zero, zero};
     const R rate = -dot(s.dv, n);
     const auto touching = overlap > zero;
     const NormalForce<R> f_n = normal_force<Normal>(select(touching, overlap, zero), rate, c, inverse.radii,
-                                                    memory + Tangential::memory_in_space);
+                                                    tangential + Tangential::memory_in_space);
     if constexpr (!Tangential::needs_spin) return {select(touching, -f_n.force * n, none), none, overlap};
     Vector<R> spin = s.spin;
     R share(1.0);
     Levers<R> arm{s.radius, zero};
-    if constexpr (couples) {
+    if constexpr (has_couples) {
         arm = levers(distance, s.radius, s.other, s.square_difference, c.lever);
         spin = R(0.5) * ((arm.first + arm.second) * s.turn + (arm.first - arm.second) * s.differ);
         share = (arm.first + arm.second) / s.radius_sum;
@@ -183,13 +205,20 @@ SANDLANE_INLINE SpatialForce<R> pair_force(const SpatialState<R>& s, const PairC
     const R twist = Tangential::needs_twist ? R(0.5) * dot(s.turn, n) : zero;
     const Vector<R> f_t = Tangential::force(SpatialInput<R>{f_n.load, u_t, n, twist, c.tangential_damping,
                                                             c.friction, c.tangential_stiffness, time},
-                                            memory);
+                                            tangential);
     const Vector<R> turning = cross(n, f_t);
     SpatialForce<R> f{select(touching, f_t - f_n.force * n, none), select(touching, turning, none), overlap};
-    if constexpr (couples) {
+    if constexpr (has_couples) {
         const R limit = c.rolling_friction * inverse.radii * f_n.load;
-        const Vector<R> couple = (arm.first - s.radius * share) * turning +
-                                 rolling_couple(s.differ - dot(s.differ, n) * n, c.rolling_damping, limit);
+        const Vector<R> differ = s.differ - dot(s.differ, n) * n;
+        Vector<R> rolling;
+        if constexpr (couples == Couples::sprung)
+            rolling = rolling_couple(differ, c.rolling_damping, limit,
+                                     RollingSpring<R>{c.rolling_stiffness, time, n, R(0.5) * dot(s.turn, n)},
+                                     memory);
+        else
+            rolling = rolling_couple(differ, c.rolling_damping, limit);
+        const Vector<R> couple = (arm.first - s.radius * share) * turning + rolling;
         f.turning = share * f.turning;
         f.couple = select(touching, couple, none);
     }
@@ -202,15 +231,18 @@ template <int dimension, class R>
 using ContactState = std::conditional_t<dimension == 3, SpatialState<R>, PairState<R>>;
 
 // Elastic energy of a contact, J, from its overlap and what it remembers.
-template <class Normal, class Tangential, int dimension>
+template <class Normal, class Tangential, Couples couples, int dimension>
 double elastic_energy(double overlap, double inverse_radii, const PairCoefficients<double>& c,
                       const double* memory) {
     const NormalInput<double> input{overlap,           0,          c.elastic, c.dissipative,
                                     1 / inverse_radii, c.cohesion, c.least};
-    const double normal = Normal::energy(input, memory + tangential_memory<Tangential, dimension>);
+    const double* tangential = memory + rolling_memory<couples, dimension>;
+    double energy = Normal::energy(input, tangential + tangential_memory<Tangential, dimension>);
+    for (int m = 0; m < rolling_memory<couples, dimension>; ++m)
+        energy += 0.5 * c.rolling_stiffness * memory[m] * memory[m];
     if constexpr (dimension == 3)
-        return normal + Tangential::energy_in_space(c.tangential_stiffness, c.friction, memory);
-    return normal + Tangential::energy(c.tangential_stiffness, c.friction, memory);
+        return energy + Tangential::energy_in_space(c.tangential_stiffness, c.friction, tangential);
+    return energy + Tangential::energy(c.tangential_stiffness, c.friction, tangential);
 }
 
 } // namespace sandlane::laws

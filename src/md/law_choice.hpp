@@ -27,13 +27,18 @@ template <class Body> auto with_tangential_law(int tangential, const Body& body)
     std::abort();
 }
 
-// Calls body(Type<Normal>, Type<Tangential>, bool_constant<couples>); couples need a law with spins.
-template <class Body> auto with_laws(int normal, int tangential, bool couples, const Body& body) {
+template <laws::Couples couples> using Kind = std::integral_constant<laws::Couples, couples>;
+
+// Calls body(Type<Normal>, Type<Tangential>, Kind<couples>); couples that the law does not have: without.
+template <class Body> auto with_laws(int normal, int tangential, laws::Couples couples, const Body& body) {
+    using enum laws::Couples;
     return with_normal_law(normal, [&]<class Normal>(Type<Normal> n) {
         return with_tangential_law(tangential, [&]<class Tangential>(Type<Tangential> t) {
-            if constexpr (Tangential::needs_spin)
-                if (couples) return body(n, t, std::true_type{});
-            return body(n, t, std::false_type{});
+            if constexpr (laws::exists_with<Tangential, sprung>)
+                if (couples == sprung) return body(n, t, Kind<sprung>{});
+            if constexpr (laws::exists_with<Tangential, damped>)
+                if (couples == damped) return body(n, t, Kind<damped>{});
+            return body(n, t, Kind<none>{});
         });
     });
 }

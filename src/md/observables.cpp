@@ -37,9 +37,9 @@ ContactForce evaluate(const laws::SpatialForce<double>& f, Vec n) {
 }
 
 // `remembered`: what the contact holds, or null if it is new.
-template <class Normal, class Tangential, int dimension, bool couples>
+template <class Normal, class Tangential, laws::Couples couples, int dimension>
 ContactForce contact_force(const Relative& s, const Coefficients& c, const double* remembered) {
-    constexpr int numbers = laws::memory_of<Normal, Tangential, dimension>;
+    constexpr int numbers = laws::memory_of<Normal, Tangential, couples, dimension>;
     static_assert(numbers <= laws::most_memory);
     double memory[numbers + 1] = {laws::no_contact};
     if (remembered != nullptr) std::copy_n(remembered, numbers, memory);
@@ -53,19 +53,20 @@ ContactForce contact_force(const Relative& s, const Coefficients& c, const doubl
                                             s.differ.z, s.radius,     s.other,         s.square_difference};
         f = evaluate(laws::pair_force<Normal, Tangential, couples>(plane, c, memory, 0.0), n);
     }
-    f.energy = laws::elastic_energy<Normal, Tangential, dimension>(f.overlap, s.inverse_radii, c, memory);
+    f.energy =
+        laws::elastic_energy<Normal, Tangential, couples, dimension>(f.overlap, s.inverse_radii, c, memory);
     return f;
 }
 
 using ContactKernel = ContactForce (*)(const Relative&, const Coefficients&, const double*);
 
 ContactKernel contact_kernel(const Plan& plan) {
-    return with_laws(plan.normal, plan.tangential, has_couples(plan),
-                     [&]<class Normal, class Tangential, bool couples>(
-                         Type<Normal>, Type<Tangential>, std::bool_constant<couples>) -> ContactKernel {
+    return with_laws(plan.normal, plan.tangential, plan.couples,
+                     [&]<class Normal, class Tangential, laws::Couples couples>(
+                         Type<Normal>, Type<Tangential>, Kind<couples>) -> ContactKernel {
                          if constexpr (laws::exists_in<Tangential, 3>)
-                             if (plan.dimension == 3) return contact_force<Normal, Tangential, 3, couples>;
-                         return contact_force<Normal, Tangential, 2, couples>;
+                             if (plan.dimension == 3) return contact_force<Normal, Tangential, couples, 3>;
+                         return contact_force<Normal, Tangential, couples, 2>;
                      });
 }
 

@@ -63,6 +63,10 @@ template <class Body> auto with_traits(const Scene& scene, const Body& body) {
                            [&]<class Law>(Type<Law>) { return body(LawTraits<Law>{}); });
 }
 
+bool has_spring(scene::TangentialLaw law) {
+    return law == scene::TangentialLaw::cundall_strack || law == scene::TangentialLaw::walton_braun;
+}
+
 // Area or volume of a grain and of the domain.
 double content(const Scene& scene, double radius) {
     const double area = std::numbers::pi * radius * radius;
@@ -78,9 +82,10 @@ void set_memory(Plan& plan) {
     with_laws(plan.normal, plan.tangential, false,
               [&]<class Normal, class Tangential>(Type<Normal>, Type<Tangential>, auto) {
                   const bool space = plan.dimension == 3;
-                  plan.odd_memory = space ? laws::tangential_memory<Tangential, 3> : 0;
-                  plan.memory =
-                      space ? laws::memory_of<Normal, Tangential, 3> : laws::memory_of<Normal, Tangential, 2>;
+                  plan.odd_memory = space ? rolling_memory<couples, 3> + tangential_memory<Tangential, 3>
+                                          : rolling_memory<couples, 2>;
+                  plan.memory = space ? memory_of<Normal, Tangential, couples, 3>
+                                      : memory_of<Normal, Tangential, couples, 2>;
               });
 }
 
@@ -115,6 +120,7 @@ std::vector<double> pair_table(const Scene& scene) {
                                          mixed.friction,
                                          mixed.tangential_stiffness,
                                          mixed.cohesion,
+                    std::min(p.rolling_stiffness, q.rolling_stiffness),
                                          mixed.rolling_friction,
                                          mixed.rolling_damping,
                                          mixed.least,
@@ -125,14 +131,16 @@ std::vector<double> pair_table(const Scene& scene) {
                     const bool here = (pair.first == p.name && pair.second == q.name) ||
                                       (pair.first == q.name && pair.second == p.name);
                     if (!here) continue;
-                    const double given[] = {traits.elastic(pair),      traits.dissipative(pair),
-                                            pair.tangential_damping,   pair.friction,
-                                            pair.tangential_stiffness, pair.cohesion,
-                                            pair.rolling_friction,     pair.rolling_damping};
+                                         mixed.rolling_stiffness,
+                    const double given[] = {
+                        traits.elastic(pair),  traits.dissipative(pair),  pair.tangential_damping,
+                        pair.friction,         pair.tangential_stiffness, pair.cohesion,
+                        pair.rolling_friction, pair.rolling_damping,      pair.rolling_stiffness};
                     for (std::size_t k = 0; k < std::size(given); ++k)
                         if (given[k] >= 0) c[k] = given[k];
                 }
-                if (scene.md.tangential == scene::TangentialLaw::none) c[2] = c[3] = c[4] = c[6] = c[7] = 0;
+                if (scene.md.tangential == scene::TangentialLaw::none)
+                    c[2] = c[3] = c[4] = c[6] = c[7] = c[8] = 0;
             }
     });
     return table;
@@ -161,8 +169,10 @@ Needs analyse(const Scene& scene, const std::vector<scene::GrainState>& grains) 
             const laws::PairCoefficients<double> c = laws::coefficients_from<double>(table.data() + p);
             const bool surfaces = c.friction > 0 && (c.tangential_damping > 0 || c.tangential_stiffness > 0);
             needs.friction = needs.friction || surfaces;
-            needs.couples = needs.couples || (c.rolling_friction > 0 && c.rolling_damping > 0) ||
-                            (surfaces && c.lever > 0);
+            const bool rolling = c.rolling_friction > 0 && (c.rolling_damping > 0 || c.rolling_stiffness > 0);
+            if (rolling || (surfaces && c.lever > 0))
+                needs.couples = std::max(needs.couples, laws::Couples::damped);
+            if (rolling && c.rolling_stiffness > 0) needs.couples = laws::Couples::sprung;
         }
     needs.memory = needs.friction && (scene.md.tangential == scene::TangentialLaw::cundall_strack ||
                                       scene.md.tangential == scene::TangentialLaw::walton_braun);
@@ -205,9 +215,9 @@ Derived derive(const Scene& scene, const Needs& needs) {
         d.restitution_min = std::min({d.restitution_min, fast.restitution, deep.restitution});
         d.restitution_max = std::max({d.restitution_max, fast.restitution, deep.restitution});
         d.overlap_ratio = std::max(d.overlap_ratio, deep.overlap / needs.radius_min);
-        if (c.rolling_friction > 0 && c.rolling_damping > 0) { // of two of the lightest grains
-            const double inertia_of_two =
-                0.5 * inertia * needs.mass_min * needs.radius_min * needs.radius_min;
+        // Of two of the lightest grains.
+        const double inertia_of_two = 0.5 * inertia * needs.mass_min * needs.radius_min * needs.radius_min;
+        if (c.rolling_friction > 0 && c.rolling_damping > 0)
             bound(stable_damping(order) * inertia_of_two / c.rolling_damping,
                   0.15 * inertia_of_two / c.rolling_damping);
         }
@@ -216,9 +226,13 @@ Derived derive(const Scene& scene, const Needs& needs) {
         if (c.tangential_damping > 0)
             bound(stable_damping(order) * tangential_mass / c.tangential_damping,
                   0.15 * tangential_mass / c.tangential_damping);
-        if (needs.memory) { // the spring swings at its own frequency
+        if (has_spring(scene.md.tangential)) { // which swings at its own frequency
             const double frequency = std::sqrt(c.tangential_stiffness / tangential_mass);
             const double ratio =
+        if (c.rolling_friction > 0 && c.rolling_stiffness > 0) {
+            const double frequency = std::sqrt(c.rolling_stiffness / inertia_of_two);
+            const double ratio = c.rolling_damping / (2 * std::sqrt(c.rolling_stiffness * inertia_of_two));
+            bound(stable_phase(order, ratio) / frequency, std::numbers::pi / frequency / 50);
                 c.tangential_damping / (2 * std::sqrt(c.tangential_stiffness * tangential_mass));
             bound(stable_phase(order, ratio) / frequency, std::numbers::pi / frequency / 50);
         }
@@ -301,9 +315,6 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
                  : "neighbours: as asked for in md.neighbours");
         return;
     }
-    // A function of the scene alone. Lists are measured to be the fastest from a few grains on, at any
-    // density; `tools/bench kernels` shows it.
-    const std::size_t few = 32;
     const bool sheared = scene.domain.shear_rate != 0; // only lists know the seam
     const bool small = needs.grains + needs.poured <= few && !sheared;
     plan.neighbours = small ? NeighbourMethod::brute_force : NeighbourMethod::verlet;
@@ -358,17 +369,20 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     plan.upper = scene.domain.upper;
     plan.order = order_of(scene.md.integrator);
     plan.normal = static_cast<int>(scene.md.normal);
-    const bool turns = needs.friction || needs.couples || needs.spinning ||
-                       (plan.dimension == 2 && scene.domain.gravity.z != 0);
-    plan.rotation = needs.couples ? simd::Rotation::couples
-                    : turns       ? simd::Rotation::friction
-                                  : simd::Rotation::none;
+    const bool couples = needs.couples != laws::Couples::none;
+    const bool turns =
+        needs.friction || couples || needs.spinning || (plan.dimension == 2 && scene.domain.gravity.z != 0);
+    plan.couples = needs.couples;
+    plan.rotation = couples ? simd::Rotation::couples
+                    : turns ? simd::Rotation::friction
+                            : simd::Rotation::none;
     // Spins without friction: the law of fewest operations whose kernels have room for torques, which are
     // zero.
-    const bool idle = needs.couples || (plan.dimension == 3 && turns);
+    const bool idle = couples || (plan.dimension == 3 && turns);
     const scene::TangentialLaw without =
         idle ? scene::TangentialLaw::haff_werner : scene::TangentialLaw::none;
-    plan.tangential = static_cast<int>(needs.friction ? scene.md.tangential : without);
+    const bool as_asked = needs.friction || needs.couples == laws::Couples::sprung;
+    plan.tangential = static_cast<int>(as_asked ? scene.md.tangential : without);
     plan.orientation = scene.md.orientation && turns;
     set_memory(plan);
     plan.many_materials = needs.many_materials;

@@ -59,9 +59,6 @@ struct Plan {
 [[nodiscard]] constexpr bool turns(const Plan& plan) {
     return plan.rotation != simd::Rotation::none;
 }
-[[nodiscard]] constexpr bool has_couples(const Plan& plan) {
-    return plan.rotation == simd::Rotation::couples;
-}
 
 [[nodiscard]] constexpr bool is_lattice(scene::NeighbourMethod method) {
     return method == scene::NeighbourMethod::lattice || method == scene::NeighbourMethod::lattice_half;

@@ -170,7 +170,7 @@ void Simulation::forces_and_motion(bool predict) {
 // Forces on the grains of a tile in the calling thread's accumulator, which the motion kernel clears.
 double* Simulation::add_tile_forces(std::size_t tile) {
     double* force = accumulators_[static_cast<std::size_t>(thread_index())].data();
-    const simd::TileKernel kernel = law().tile[has_couples(plan_) ? 1 : 0][plan_.many_materials ? 1 : 0];
+    const simd::TileKernel kernel = law().tile[static_cast<int>(plan_.couples)][plan_.many_materials ? 1 : 0];
     tile_overlaps_[tile] = kernel(pair_view(), lists_.tile(tile, state_), force, 0.0);
     if (!walls_.empty())
         wall_results_[tile] = walls_.add_forces(wall_input(force, tile * tile_size), tile, state_.size(),
@@ -251,7 +251,7 @@ std::vector<double> Simulation::take_forces() {
 }
 
 void Simulation::pair_forces() {
-    const simd::PairKernel pair = law().pair[has_couples(plan_) ? 1 : 0][plan_.many_materials ? 1 : 0];
+    const simd::PairKernel pair = law().pair[static_cast<int>(plan_.couples)][plan_.many_materials ? 1 : 0];
     const simd::PairView pairs = pair_view();
     const bool on_lattice = is_lattice(plan_.neighbours);
     if (!on_lattice) cells_.build(state_, kernels().bin, plan_.threads);

@@ -98,10 +98,10 @@ void add_to(double* accumulator, const laws::SpatialForce<double>& f, int fields
     }
 }
 
-template <class Normal, class Tangential, bool couples>
+template <class Normal, class Tangential, laws::Couples couples>
 laws::SpatialForce<double> force_of(const RecordedGrain& g, const WallContact& c, const double* coefficients,
                                     double* remembered, std::ptrdiff_t stride, double dt) {
-    constexpr int memory = laws::memory_of<Normal, Tangential, 3>;
+    constexpr int memory = laws::memory_of<Normal, Tangential, couples, 3>;
     double held[memory + 1];
     for (int m = 0; m < memory; ++m) held[m] = remembered[m * stride];
     const auto f = laws::pair_force<Normal, Tangential, couples>(
@@ -110,10 +110,10 @@ laws::SpatialForce<double> force_of(const RecordedGrain& g, const WallContact& c
     return f;
 }
 
-template <class Normal, class Tangential, bool couples>
+template <class Normal, class Tangential, laws::Couples couples>
 WallResult surface_forces(const Walls& walls, const WallInput& input, const NearWall* begin,
                           const NearWall* end) {
-    constexpr bool has_memory = (laws::memory_of<Normal, Tangential, 3>) != 0;
+    constexpr bool has_memory = (laws::memory_of<Normal, Tangential, couples, 3>) != 0;
     WallResult result;
     SurfaceContacts contacts;
     for (const NearWall *first = begin, *last = begin; first != end; first = last) {
@@ -137,7 +137,7 @@ WallResult surface_forces(const Walls& walls, const WallInput& input, const Near
             add_to(input.force + (i - input.first) * static_cast<std::size_t>(input.force_stride), f,
                    input.force_stride);
             result.power += f.force.x * c.velocity.x + f.force.y * c.velocity.y + f.force.z * c.velocity.z;
-            if constexpr (couples)
+            if constexpr (couples != laws::Couples::none)
                 result.power += f.couple.x * c.angular_velocity.x + f.couple.y * c.angular_velocity.y +
                                 f.couple.z * c.angular_velocity.z;
             result.see(f.overlap / g.radius, i, element.wall);
@@ -149,9 +149,9 @@ WallResult surface_forces(const Walls& walls, const WallInput& input, const Near
 } // namespace
 
 WallKernel surface_kernel(const Plan& plan) {
-    return with_laws(plan.normal, plan.tangential, has_couples(plan),
-                     []<class Normal, class Tangential, bool couples>(
-                         Type<Normal>, Type<Tangential>, std::bool_constant<couples>) -> WallKernel {
+    return with_laws(plan.normal, plan.tangential, plan.couples,
+                     []<class Normal, class Tangential, laws::Couples couples>(Type<Normal>, Type<Tangential>,
+                                                                               Kind<couples>) -> WallKernel {
                          if constexpr (laws::exists_in<Tangential, 3>)
                              return surface_forces<Normal, Tangential, couples>;
                          else

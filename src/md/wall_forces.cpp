@@ -40,7 +40,7 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
             recorded_grain<2>(input.records + i * simd::record_fields, nullptr, input.inverse_dt);
         const WallContact c = walls.contact(n->element, g.position);
         const double reach = g.radius + c.radius;
-        constexpr int memory = laws::memory_of<Normal, Tangential, 2>;
+        constexpr int memory = laws::memory_of<Normal, Tangential, couples, 2>;
         double* const remembered = memory > 0 ? input.memory + (n - input.near) : nullptr;
         if (!c.valid || c.distance >= reach) {
             for (int m = 0; m < memory; ++m) remembered[m * input.stride] = laws::no_contact;
@@ -61,7 +61,7 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
         force[2] += f.tangential;
         force[3] += f.couple;
         result.power += f.x * c.velocity.x + f.y * c.velocity.y - f.tangential * c.spin;
-        if constexpr (couples) result.power += f.couple * c.angular_velocity.z;
+        if constexpr (couples != laws::Couples::none) result.power += f.couple * c.angular_velocity.z;
         result.see(f.overlap / g.radius, i, element.wall);
     }
     return result;

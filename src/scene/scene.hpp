@@ -64,6 +64,7 @@ struct Material {
     double cohesion = 0;             // Pa: cohesive viscoelastic, pull over area of contact
     double rolling_friction = 0;     // mu_r: couple over R_eff f_n, at most
     double rolling_damping = 0;      // gamma_r, N m s: couple over the rate of rolling
+    double rolling_stiffness = 0;    // k_r, N m: couple over the angle of rolling
 };
 
 // Overrides the mixing rules for one pair of materials; negative: keep the rule.
@@ -73,7 +74,7 @@ struct MaterialPair {
     double young = -1,
            dissipation = -1; // young: Y/(1-nu^2) of the pair, so that K = (4/3) sqrt(R_eff) * young / 2
     double friction = -1, tangential_damping = -1, tangential_stiffness = -1;
-    double cohesion = -1, rolling_friction = -1, rolling_damping = -1;
+    double cohesion = -1, rolling_friction = -1, rolling_damping = -1, rolling_stiffness = -1;
 };
 
 // R from one uniform number per grain: constant = radius_min; uniform in [min, max]; inverse_square: pdf ~

@@ -128,7 +128,7 @@ const Table<Material>& material_table() {
                     "pull over the area of contact 4 pi R_eff xi (cohesive-viscoelastic)")
             .number("rolling_friction", &Material::rolling_friction, Unit::none, not_negative(),
                     "coefficient mu_r: the couple against rolling is at most mu_r R_eff f_n; needs "
-                    "rolling_damping and a tangential law")
+                    "rolling_damping or rolling_stiffness, and a tangential law")
             .number("rolling_damping", &Material::rolling_damping, Unit::rolling_damping, not_negative(),
                     "couple against slow rolling over its rate, gamma_r");
     return table;
@@ -156,7 +156,9 @@ const Table<MaterialPair>& pair_table() {
             .number("cohesion", &MaterialPair::cohesion, Unit::pressure, any, "cohesion of the pair")
             .number("rolling_friction", &MaterialPair::rolling_friction, Unit::none, any, "mu_r of the pair")
             .number("rolling_damping", &MaterialPair::rolling_damping, Unit::rolling_damping, any,
-                    "gamma_r of the pair");
+                    "gamma_r of the pair")
+            .number("rolling_stiffness", &MaterialPair::rolling_stiffness, Unit::rolling_stiffness, any,
+                    "k_r of the pair");
     return table;
 }
 

@@ -63,7 +63,7 @@ struct Declared {
 };
 
 const Declared& declared(Unit unit) {
-    static constexpr std::array<Declared, 14> table = {{{"", "0.5", {}},
+    static constexpr std::array<Declared, 15> table = {{{"", "0.5", {}},
                                                         {"m", "5 mm", {1, 0, 0}},
                                                         {"s", "2 ms", {0, 0, 1}},
                                                         {"rad", "30 deg", {}},
@@ -73,6 +73,7 @@ const Declared& declared(Unit unit) {
                                                         {"N/m", "10 kN/m", {0, 1, -2}},
                                                         {"kg/s", "3 g/s", {0, 1, -1}},
                                                         {"N m s", "1e-6 N m s", {2, 1, -1}},
+                                                        {"N m", "1e-3 N m", {2, 1, -2}},
                                                         {"Pa", "100 MPa", {-1, 1, -2}},
                                                         {"kg/m^3", "2.5 g/cm^3", {-3, 1, 0}},
                                                         {"kg", "3 g", {0, 1, 0}},

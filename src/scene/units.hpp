@@ -17,6 +17,7 @@ enum class Unit {
     stiffness,
     damping,
     rolling_damping,
+    rolling_stiffness,
     pressure,
     density,
     mass,

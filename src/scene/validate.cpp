@@ -162,11 +162,14 @@ struct Validator {
     }
 
     void check_rolling(const Material& m, std::size_t n) const {
-        if ((m.rolling_friction > 0) != (m.rolling_damping > 0))
-            reject(
-                "materials[{}]: rolling friction needs both rolling_friction ({}) and rolling_damping ({}) "
-                "above 0",
-                n, m.rolling_friction, m.rolling_damping);
+        if ((m.rolling_friction > 0) != (m.rolling_damping > 0 || m.rolling_stiffness > 0))
+            reject("materials[{}]: rolling friction needs rolling_friction ({}) above 0, and rolling_damping "
+                   "({}) or rolling_stiffness ({})",
+                   n, m.rolling_friction, m.rolling_damping, m.rolling_stiffness);
+        if (m.rolling_stiffness > 0 && !has_springs())
+            reject("materials[{}].rolling_stiffness: {} needs friction with a spring, too, else the grains "
+                   "creep: md.tangential = \"cundall-strack\" or \"walton-braun\"; or leave it out",
+                   n, m.rolling_stiffness);
         if (m.rolling_friction > 0 && scene.md.tangential == TangentialLaw::none)
             reject("materials[{}].rolling_friction: {} has no effect with md.tangential = \"none\"; choose "
                    "\"haff-werner\" or \"cundall-strack\", or leave it out",

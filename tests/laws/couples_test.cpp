@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -117,11 +118,13 @@ TEST(Couples, MatchOracle) {
             const auto c = coefficients(plane);
             const Pair flat = pair(n, true), deep = pair(n, false);
             const Torques of_flat = expected(flat, plane), of_deep = expected(deep, plane);
-            const auto f = laws::pair_force<laws::LinearDashpot, laws::HaffWerner, true>(in_plane(flat), c);
+            const auto f = laws::pair_force<laws::LinearDashpot, laws::HaffWerner, laws::Couples::damped>(
+                in_plane(flat), c);
             expect_near({f.x, f.y, 0}, of_flat.force);
             expect_near({0, 0, flat.first * f.tangential + f.couple}, of_flat.first);
             expect_near({0, 0, flat.second * f.tangential - f.couple}, of_flat.second);
-            const auto g = laws::pair_force<laws::LinearDashpot, laws::HaffWerner, true>(in_space(deep), c);
+            const auto g = laws::pair_force<laws::LinearDashpot, laws::HaffWerner, laws::Couples::damped>(
+                in_space(deep), c);
             const Vec turning{g.turning.x, g.turning.y, g.turning.z},
                 couple{g.couple.x, g.couple.y, g.couple.z};
             expect_near({g.force.x, g.force.y, g.force.z}, of_deep.force);
@@ -140,25 +143,27 @@ TEST(Couples, BothPartnersRememberTheSameBits) {
         auto c = coefficients(plane);
         c.dissipative = 150; // of unloading
         c.tangential_stiffness = 30;
+        c.rolling_stiffness = 2;
         for (int n = 0; n < 1000; ++n) {
-            double one[6] = {}, other[6] = {};
+            double one[7] = {}, other[7] = {};
             const Pair flat = pair(n, true), deep = pair(n, false);
             for (int visit = 0; visit < 2; ++visit) {
-                (void)laws::pair_force<laws::WaltonBraun, laws::WaltonBraunTangential, true>(in_plane(flat),
-                                                                                             c, one, 0.01);
-                (void)laws::pair_force<laws::WaltonBraun, laws::WaltonBraunTangential, true>(
+                (void)laws::pair_force<laws::WaltonBraun, laws::WaltonBraunTangential, laws::Couples::sprung>(
+                    in_plane(flat), c, one, 0.01);
+                (void)laws::pair_force<laws::WaltonBraun, laws::WaltonBraunTangential, laws::Couples::sprung>(
                     in_plane(swapped(flat)), c, other, 0.01);
             }
-            for (int m = 0; m < 5; ++m) ASSERT_EQ(one[m], other[m]) << n << ' ' << m;
-            double zeta[4] = {}, mirrored[4] = {};
+            ASSERT_EQ(one[0], -other[0]) << n; // the angle of rolling
+            for (int m = 1; m < 6; ++m) ASSERT_EQ(one[m], other[m]) << n << ' ' << m;
+            double zeta[8] = {}, mirrored[8] = {};
             for (int visit = 0; visit < 2; ++visit) {
-                (void)laws::pair_force<laws::WaltonBraun, laws::CundallStrack, true>(in_space(deep), c, zeta,
-                                                                                     0.01);
-                (void)laws::pair_force<laws::WaltonBraun, laws::CundallStrack, true>(in_space(swapped(deep)),
-                                                                                     c, mirrored, 0.01);
+                (void)laws::pair_force<laws::WaltonBraun, laws::CundallStrack, laws::Couples::sprung>(
+                    in_space(deep), c, zeta, 0.01);
+                (void)laws::pair_force<laws::WaltonBraun, laws::CundallStrack, laws::Couples::sprung>(
+                    in_space(swapped(deep)), c, mirrored, 0.01);
             }
-            for (int m = 0; m < 3; ++m) ASSERT_EQ(zeta[m], -mirrored[m]) << n << ' ' << m;
-            ASSERT_EQ(zeta[3], mirrored[3]) << n;
+            for (int m = 0; m < 6; ++m) ASSERT_EQ(zeta[m], -mirrored[m]) << n << ' ' << m;
+            ASSERT_EQ(zeta[6], mirrored[6]) << n;
         }
     }
 }
@@ -175,7 +180,8 @@ TEST(Couples, RigidRotationAndGearsDoNotSlide) {
     rigid.d = (1.5 / norm(rigid.d)) * rigid.d;
     rigid.dv = cross(omega, rigid.d);
     rigid.first_spin = rigid.second_spin = omega;
-    const auto f = laws::pair_force<laws::LinearDashpot, laws::HaffWerner, true>(in_space(rigid), c);
+    const auto f =
+        laws::pair_force<laws::LinearDashpot, laws::HaffWerner, laws::Couples::damped>(in_space(rigid), c);
     EXPECT_NEAR(norm(Vec{f.turning.x, f.turning.y, f.turning.z}), 0, 1e-14);
     Pair gears = pair(3, true);
     gears.d = (1.5 / norm(gears.d)) * gears.d;
@@ -183,7 +189,54 @@ TEST(Couples, RigidRotationAndGearsDoNotSlide) {
     const double arm = (1.5 * 1.5 + gears.first * gears.first - gears.second * gears.second) / 3;
     gears.first_spin = {0, 0, 0.7 / arm};
     gears.second_spin = {0, 0, -0.7 / (1.5 - arm)};
-    const auto plane = laws::pair_force<laws::LinearDashpot, laws::HaffWerner, true>(in_plane(gears), c);
+    const auto plane =
+        laws::pair_force<laws::LinearDashpot, laws::HaffWerner, laws::Couples::damped>(in_plane(gears), c);
     EXPECT_NEAR(plane.tangential, 0, 1e-14);
     EXPECT_NEAR(plane.couple, 0, 1e-14);
+}
+
+// -k_r theta - gamma_r omega, at most mu_r R_eff f_n, where theta is set back; without stiffness the damper
+// is left. Lever arms are the radii: the couple is that of rolling alone.
+TEST(Couples, RollingSpringMatchesOracle) {
+    int rolls = 0, holds = 0;
+    for (const double k : {0.0, 2.0})
+        for (int n = 0; n < 1000; ++n) {
+            auto c = coefficients(false);
+            c.tangential_stiffness = 30;
+            c.rolling_stiffness = k;
+            const Pair flat = pair(n, true), deep = pair(n, false);
+            const double dt = 0.01;
+            double memory[2] = {n % 2 == 0 ? 1e-3 : 0.1, 0}, spatial[6] = {};
+            Real theta = k > 0 ? memory[0] : 0;
+            const auto f = laws::pair_force<laws::LinearDashpot, laws::CundallStrack, laws::Couples::sprung>(
+                in_plane(flat), c, memory, dt);
+            const auto g = laws::pair_force<laws::LinearDashpot, laws::CundallStrack, laws::Couples::sprung>(
+                in_space(deep), c, spatial, dt);
+            const auto limit = [&](const Pair& p) {
+                const Real3 d = real(p.d), dv = real(p.dv);
+                const Real distance = std::sqrt(dot(d, d)), xi = Real{p.first} + p.second - distance;
+                if (xi <= 0) return Real{0};
+                const Real load = std::max(Real{0}, stiffness * xi - damping * dot(dv, (1 / distance) * d));
+                return rolling_friction * load / (1 / Real{p.first} + 1 / Real{p.second});
+            };
+            const Real omega = Real{flat.first_spin.z} - flat.second_spin.z;
+            theta += dt * omega;
+            const Real trial = -k * theta - rolling * omega,
+                       couple = std::clamp(trial, -limit(flat), limit(flat));
+            EXPECT_NEAR(f.couple, static_cast<double>(couple), rounding) << n;
+            if (limit(flat) > 0) {
+                ++(couple == trial ? holds : rolls);
+                const Real held = couple == trial ? theta : -(couple + rolling * omega) / k;
+                EXPECT_NEAR(memory[0], k > 0 ? static_cast<double>(held) : 0.0, rounding) << n;
+            }
+            const Real3 d = real(deep.d), normal = (1 / std::sqrt(dot(d, d))) * d;
+            Real3 differ = real(deep.first_spin) - real(deep.second_spin);
+            differ = differ - dot(differ, normal) * normal;
+            Real3 turned = -(k * dt + rolling) * differ;
+            const Real size = std::sqrt(dot(turned, turned)), most = limit(deep);
+            if (size > most) turned = (most / size) * turned;
+            expect_near({g.couple.x, g.couple.y, g.couple.z}, turned);
+        }
+    EXPECT_GT(rolls, 50);
+    EXPECT_GT(holds, 100);
 }

@@ -156,7 +156,8 @@ TEST(WaltonBraun, GivesBackWhatItHolds) {
         return laws::normal_force<laws::WaltonBraun>(xi, 0.0, c, 1.0, memory).force;
     };
     const auto held = [&](double xi) {
-        return laws::elastic_energy<laws::WaltonBraun, laws::Frictionless, 2>(xi, 1, c, memory);
+        return laws::elastic_energy<laws::WaltonBraun, laws::Frictionless, laws::Couples::none, 2>(xi, 1, c,
+                                                                                                   memory);
     };
     (void)force(1e-3);
     const double work = 0.5 * loading * 1e-6, peak = held(1e-3);
@@ -216,8 +217,9 @@ TEST(CohesiveViscoelastic, PullOffAndEquilibrium) {
         double work = 0;
         const int steps = 20000;
         for (int n = 0; n < steps; ++n) work += xi / steps * force((n + 0.5) * xi / steps).force;
-        const double energy = laws::elastic_energy<laws::CohesiveViscoelastic, laws::Frictionless, 2>(
-            xi, 1 / reduced, c, nullptr);
+        const double energy =
+            laws::elastic_energy<laws::CohesiveViscoelastic, laws::Frictionless, laws::Couples::none, 2>(
+                xi, 1 / reduced, c, nullptr);
         EXPECT_NEAR(energy, work, 1e-8 * scale * balance); // midpoint rule at the kink of xi^1.5 at zero
     }
 }

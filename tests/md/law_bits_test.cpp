@@ -18,7 +18,8 @@ namespace {
 
 struct Choice {
     int dimension, normal, tangential;
-    bool couples, two_materials;
+    laws::Couples couples;
+    bool two_materials;
 
     friend void PrintTo(const Choice& c, std::ostream* stream) { *stream << c.normal << ' ' << c.tangential; }
 };
@@ -28,10 +29,11 @@ std::vector<Choice> all_choices() {
     for (const int dimension : {2, 3})
         for (int normal = 0; normal < laws::normal_laws; ++normal)
             for (int tangential = 0; tangential < laws::tangential_laws; ++tangential)
-                for (const bool couples : {false, true})
+                for (const auto couples : {laws::Couples::none, laws::Couples::damped, laws::Couples::sprung})
                     for (const bool two : {false, true}) {
                         const auto law = static_cast<TangentialLaw>(tangential);
-                        if (law == TangentialLaw::none && couples) continue;
+                        if (law == TangentialLaw::none && couples != laws::Couples::none) continue;
+                        if (law == TangentialLaw::haff_werner && couples == laws::Couples::sprung) continue;
                         if (law == TangentialLaw::walton_braun && dimension == 3) continue;
                         choices.push_back({dimension, normal, tangential, couples, two});
                     }
@@ -43,21 +45,25 @@ std::string choice_name(const testing::TestParamInfo<Choice>& info) {
     std::string name = (c.dimension == 2 ? "plane_" : "space_") +
                        std::string(scene::normal_choices()[static_cast<std::size_t>(c.normal)]) + "_" +
                        std::string(scene::tangential_choices()[static_cast<std::size_t>(c.tangential)]) +
-                       (c.couples ? "_couples" : "") + (c.two_materials ? "_two" : "");
+                       (c.couples == laws::Couples::none     ? ""
+                        : c.couples == laws::Couples::damped ? "_couples"
+                                                             : "_rolling_springs") +
+                       (c.two_materials ? "_two" : "");
     std::ranges::replace(name, '-', '_');
     return name;
 }
 
-void set_coefficients(scene::Material& m, double factor, bool couples) {
+void set_coefficients(scene::Material& m, double factor, laws::Couples couples) {
     m.stiffness = 1000 * factor;
     m.unloading_stiffness = 1500 * factor;
     m.young = 1000 * factor;
     m.dissipation = 1e-3 / factor;
     m.tangential_stiffness = 200 * factor;
     m.cohesion = 10 * factor;
-    if (!couples) return;
+    if (couples == laws::Couples::none) return;
     m.rolling_friction = 0.1 * factor;
     m.rolling_damping = 0.05;
+    if (couples == laws::Couples::sprung) m.rolling_stiffness = 30 * factor;
 }
 
 // A system of a little more than one tile of grains.
@@ -71,7 +77,7 @@ protected:
         scene_.md.tangential = static_cast<TangentialLaw>(c.tangential);
         scene_.md.neighbours = NeighbourMethod::verlet;
         scene_.md.cut = !c.two_materials;
-        if (c.couples) scene_.md.lever_arm = scene::LeverArm::plane;
+        if (c.couples != laws::Couples::none) scene_.md.lever_arm = scene::LeverArm::plane;
         set_coefficients(scene_.materials[0], 1, c.couples);
         if (scene_.md.tangential == TangentialLaw::none)
             for (auto& g : grains_) g.omega = 0, g.angular_velocity = {};

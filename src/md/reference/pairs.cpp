@@ -6,7 +6,7 @@ namespace sandlane::simd::reference {
 
 namespace {
 
-template <int dimension, class Tangential, bool couples>
+template <int dimension, class Tangential, laws::Couples couples>
 laws::ContactState<dimension, double> contact_state(const PairView& view, std::int32_t i, std::int32_t j) {
     const Pair<dimension> p(view, i, j);
     const double* a = view.records + std::ptrdiff_t{i} * record_fields;
@@ -32,7 +32,7 @@ laws::ContactState<dimension, double> contact_state(const PairView& view, std::i
         s.dvx = p.dv[0];
         s.dvy = p.dv[1];
         s.spin = (b[Record<2>::spin] + a[Record<2>::spin]) * view.inverse_dt;
-        if (couples) s.turn = sum(0), s.differ = difference(0);
+        if (couples != laws::Couples::none) s.turn = sum(0), s.differ = difference(0);
     } else {
         s.d = {p.d[0], p.d[1], p.d[2]};
         s.dv = {p.dv[0], p.dv[1], p.dv[2]};
@@ -75,8 +75,8 @@ template <int dimension, int fields, class Force> void add(const Force& f, doubl
         second[n] = is_mirrored(dimension, n) ? second[n] - row[n] : second[n] + row[n];
 }
 
-template <class Tangential, bool couples> constexpr Rotation rotation_of() {
-    if (couples) return Rotation::couples;
+template <class Tangential, laws::Couples couples> constexpr Rotation rotation_of() {
+    if (couples != laws::Couples::none) return Rotation::couples;
     return Tangential::needs_spin ? Rotation::friction : Rotation::none;
 }
 
@@ -87,7 +87,7 @@ laws::PairCoefficients<double> coefficients(const PairView& view, std::int32_t i
     return laws::coefficients_from<double>(view.coefficients + pair * laws::pair_coefficients);
 }
 
-template <int dimension, class Normal, class Tangential, bool couples, bool many_materials>
+template <int dimension, class Normal, class Tangential, laws::Couples couples, bool many_materials>
 double pair_forces(const PairView& view, const std::int32_t* first, const std::int32_t* second,
                    std::int32_t count, Target target, double largest) {
     constexpr int fields = force_stride(dimension, rotation_of<Tangential, couples>());
@@ -113,10 +113,10 @@ bool exchange_touched(const TileList& list, std::int32_t n, bool touches) {
     return before;
 }
 
-template <int dimension, class Normal, class Tangential, bool couples, bool many_materials>
+template <int dimension, class Normal, class Tangential, laws::Couples couples, bool many_materials>
 double tile_forces(const PairView& view, const TileList& list, double* force, double largest) {
     constexpr int fields = force_stride(dimension, rotation_of<Tangential, couples>());
-    constexpr int memory = laws::memory_of<Normal, Tangential, dimension>;
+    constexpr int memory = laws::memory_of<Normal, Tangential, couples, dimension>;
     const auto of = [&](std::int32_t grain) { return force + std::ptrdiff_t{grain - list.begin} * fields; };
     for (std::int32_t n = 0; n < list.count; ++n) {
         const std::int32_t i = list.i[n], j = list.j[n];
@@ -137,18 +137,24 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
     return largest;
 }
 
-template <int dimension, class Normal, class Tangential, bool couples> void fill(DimensionKernels::Law& law) {
-    if constexpr (laws::memory_of<Normal, Tangential, dimension> == 0) {
-        law.pair[couples][0] = pair_forces<dimension, Normal, Tangential, couples, false>;
-        law.pair[couples][1] = pair_forces<dimension, Normal, Tangential, couples, true>;
+template <int dimension, class Normal, class Tangential, laws::Couples couples>
+void fill(DimensionKernels::Law& law) {
+    constexpr int kind = static_cast<int>(couples);
+    if constexpr (laws::exists_with<Tangential, couples>) {
+        if constexpr (laws::memory_of<Normal, Tangential, couples, dimension> == 0) {
+            law.pair[kind][0] = pair_forces<dimension, Normal, Tangential, couples, false>;
+            law.pair[kind][1] = pair_forces<dimension, Normal, Tangential, couples, true>;
+        }
+        law.tile[kind][0] = tile_forces<dimension, Normal, Tangential, couples, false>;
+        law.tile[kind][1] = tile_forces<dimension, Normal, Tangential, couples, true>;
     }
-    law.tile[couples][0] = tile_forces<dimension, Normal, Tangential, couples, false>;
-    law.tile[couples][1] = tile_forces<dimension, Normal, Tangential, couples, true>;
 }
 template <int dimension, class Normal, class Tangential> void fill_couples(DimensionKernels::Law& law) {
+    using enum laws::Couples;
     if constexpr (laws::exists_in<Tangential, dimension>) {
-        fill<dimension, Normal, Tangential, false>(law);
-        if constexpr (Tangential::needs_spin) fill<dimension, Normal, Tangential, true>(law);
+        fill<dimension, Normal, Tangential, none>(law);
+        fill<dimension, Normal, Tangential, damped>(law);
+        fill<dimension, Normal, Tangential, sprung>(law);
     }
 }
 
