@@ -97,21 +97,34 @@ using NearKernel = std::int32_t (*)(const PairView&, const std::int32_t* i, cons
                                     std::int32_t count, double skin, std::int32_t* near_i,
                                     std::int32_t* near_j, std::int32_t* position);
 
-// Link cells: particles counting-sorted by cell, columns innermost. One cell in a direction means "all
-// particles" in that direction; a plane has one layer.
+// The grid of one class of radii, where there are several: cells as wide as the largest grains of the class
+// at least.
+struct CellGrid {
+    const std::int32_t* start;        // cells + 1 entries
+    std::int32_t count[3], first_row; // columns, rows, layers; its first row of those of all classes
+    double lower[3], inverse_edge[3]; // m, 1/m
+    double radius;                    // of its largest grain, m
+};
+// Link cells: particles counting-sorted by class and cell, columns innermost. One cell in a direction means
+// "all particles" in that direction; a plane has one layer.
 struct CellView {
     const double *position[3], *radius;
     const std::int32_t* owner;
-    const std::int32_t* start; // cells + 1 entries
+    const std::int32_t* start; // of the only class: cells + 1 entries
     std::int32_t count[3];     // columns, rows, layers
     bool periodic[3];
     bool sheared; // beyond the y sides all columns are neighbours
+    std::int32_t classes;
+    const CellGrid* grids; // of more than one class, from the smallest radii up
 };
-// Grains of `cell` and those around it whose gap to the grain at sorted position `self` is below `skin`:
-// storage indices in the order of the cells. `out` has room for all grains of these cells and eight more.
+// Widening of the distance within which cells are looked at: rounding of positions never exceeds it.
+inline constexpr double cell_margin = 1.0 + 0x1p-30;
+// Grains whose gap to the grain at sorted position `self`, which stands in `cell`, is below `skin`: storage
+// indices in the order of classes and cells. `out` has room for all grains of the cells that are looked at
+// and eight more.
 using CandidateKernel = std::int32_t (*)(const CellView&, const PairView&, std::int32_t cell,
                                          std::int32_t self, double skin, std::int32_t* out);
-// Rows of all layers are numbered through: row + rows * layer.
+// Rows of all layers and classes are numbered through: row + rows * layer + first_row.
 using CellKernel = SweepResult (*)(const CellView&, const PairView&, PairKernel, std::int32_t row_begin,
                                    std::int32_t row_end);
 

@@ -23,7 +23,7 @@ double in_units(const double (&skins)[2], const Plan& plan, const Needs& needs) 
 } // namespace
 
 PairLists::PairLists(const scene::Scene& scene, const Plan& plan, const Needs& needs)
-    : cells_(scene, plan, needs.radius_max, false, in_units(outer_skin, plan, needs)), lower_(plan.lower),
+    : cells_(scene, plan, needs, false, in_units(outer_skin, plan, needs)), lower_(plan.lower),
       upper_(plan.upper), skin_(in_units(outer_skin, plan, needs)),
       near_skin_(in_units(near_skin, plan, needs)), shear_rate_(scene.domain.shear_rate),
       radius_max_(needs.radius_max), fields_(plan.memory), remembered_(plan.memory, plan.odd_memory) {
@@ -167,7 +167,8 @@ void PairLists::build_tile(std::size_t index, const State& state, const simd::Pa
     const auto end = static_cast<std::int32_t>(std::min(state.size(), (index + 1) * tile_size));
     const auto dimension = static_cast<std::size_t>(state.dimension);
     const simd::CellView view = cells_.view();
-    std::vector<std::int32_t> found(cells_.most_around() + block_width);
+    thread_local std::vector<std::int32_t> found;
+    if (found.size() < cells_.most_around() + block_width) found.resize(cells_.most_around() + block_width);
     for (std::int32_t i = begin; i < end; ++i) {
         const auto grain = static_cast<std::size_t>(i);
         std::copy_n(state.record_of(grain), dimension, built_.data() + grain * dimension);

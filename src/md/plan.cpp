@@ -79,8 +79,10 @@ double content(const Scene& scene) {
 
 // What contacts of the plan's laws remember.
 void set_memory(Plan& plan) {
-    with_laws(plan.normal, plan.tangential, false,
-              [&]<class Normal, class Tangential>(Type<Normal>, Type<Tangential>, auto) {
+    with_laws(plan.normal, plan.tangential, plan.couples,
+              [&]<class Normal, class Tangential, laws::Couples couples>(Type<Normal>, Type<Tangential>,
+                                                                         Kind<couples>) {
+                  using namespace laws;
                   const bool space = plan.dimension == 3;
                   plan.odd_memory = space ? rolling_memory<couples, 3> + tangential_memory<Tangential, 3>
                                           : rolling_memory<couples, 2>;
@@ -174,8 +176,9 @@ Needs analyse(const Scene& scene, const std::vector<scene::GrainState>& grains) 
                 needs.couples = std::max(needs.couples, laws::Couples::damped);
             if (rolling && c.rolling_stiffness > 0) needs.couples = laws::Couples::sprung;
         }
-    needs.memory = needs.friction && (scene.md.tangential == scene::TangentialLaw::cundall_strack ||
-                                      scene.md.tangential == scene::TangentialLaw::walton_braun);
+    needs.memory = needs.friction && has_spring(scene.md.tangential);
+    needs.memory = needs.memory || needs.couples == laws::Couples::sprung;
+    needs.sizes = size_classes(grains.size(), [&](std::size_t i) { return grains[i].radius; });
     needs.walls = !scene.walls.empty();
     for (const scene::Wall& w : scene.walls) needs.moving_walls = needs.moving_walls || !w.motion.empty();
     needs.gravity = norm(scene.domain.gravity) > 0;

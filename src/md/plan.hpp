@@ -3,6 +3,8 @@
 #pragma once
 
 #include "core/parallel.hpp"
+#include "laws/contact.hpp"
+#include "md/size_classes.hpp"
 #include "scene/initial_state.hpp"
 #include "scene/scene.hpp"
 #include "simd/tables.hpp"
@@ -19,8 +21,10 @@ struct Needs {
     double radius_min = 0, radius_max = 0; // m
     double mass_min = 0, mass_max = 0;     // kg
     bool many_radii = false, many_materials = false, friction = false;
-    bool memory = false;  // contacts of the tangential law remember
-    bool couples = false; // rolling friction, or lever arms to the plane of the contact
+    bool memory = false; // contacts of the tangential law remember
+    laws::Couples couples =
+        laws::Couples::none;      // rolling friction, or lever arms to the plane of the contact
+    std::vector<SizeClass> sizes; // of radii, from the smallest up
     bool walls = false, moving_walls = false, gravity = false, spinning = false;
     double packing_fraction = 0; // grain area or volume over that of the domain
 };

@@ -46,8 +46,7 @@ void Simulation::prepare_method() {
         accumulators_.assign(static_cast<std::size_t>(plan_.threads),
                              Column<double>((tile_size + block_width) * state_.force_stride(), 0.0));
     } else {
-        cells_ =
-            LinkCells(scene_, plan_, needs_.radius_max, plan_.neighbours == NeighbourMethod::brute_force);
+        cells_ = LinkCells(scene_, plan_, needs_, plan_.neighbours == NeighbourMethod::brute_force);
     }
 }
 

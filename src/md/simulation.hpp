@@ -99,7 +99,6 @@ private:
     [[nodiscard]] md::WallInput wall_input(double* force, std::size_t first) const;
     [[nodiscard]] bool is_inside(Vec p) const;
     void handle_outside();
-    void use_link_cells();
     [[noreturn]] void fail_overlap() const;
     void check_overlap(double overlap) const;
     [[nodiscard]] simd::MotionView motion_view(std::int64_t predicted);

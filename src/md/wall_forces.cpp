@@ -30,7 +30,7 @@ laws::PairState<double> state_of(const RecordedGrain& g, const WallContact& c) {
     return s;
 }
 
-template <class Normal, class Tangential, bool couples>
+template <class Normal, class Tangential, laws::Couples couples>
 WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWall* begin,
                        const NearWall* end) {
     WallResult result;
@@ -70,9 +70,9 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
 } // namespace
 
 WallKernel wall_kernel(const Plan& plan) {
-    return with_laws(plan.normal, plan.tangential, has_couples(plan),
-                     []<class Normal, class Tangential, bool couples>(
-                         Type<Normal>, Type<Tangential>, std::bool_constant<couples>) -> WallKernel {
+    return with_laws(plan.normal, plan.tangential, plan.couples,
+                     []<class Normal, class Tangential, laws::Couples couples>(Type<Normal>, Type<Tangential>,
+                                                                               Kind<couples>) -> WallKernel {
                          return wall_forces<Normal, Tangential, couples>;
                      });
 }

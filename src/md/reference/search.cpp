@@ -1,6 +1,10 @@
 // Pair finding: lattice, link cells, near pairs of a list.
 #include "md/reference/reference.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 namespace sandlane::simd::reference {
 
 namespace {
@@ -121,6 +125,52 @@ template <class Body> void for_around(const CellView& cells, std::int32_t cell, 
     });
 }
 
+// Cells of a grid that the interval x +- reach meets, from its lower to its upper end; those beyond a
+// periodic side are marked. All cells, once and in order, if the interval is longer than the domain.
+struct CellAt {
+    std::int32_t index;
+    bool beyond;
+};
+std::vector<CellAt> cells_met(double x, double reach, const CellGrid& grid, int d, bool periodic) {
+    const std::int32_t cells = grid.count[d];
+    const auto cell_of = [&](double at) {
+        const double n = std::floor((at - grid.lower[d]) * grid.inverse_edge[d]);
+        return static_cast<std::int32_t>(
+            std::clamp(n, periodic ? -1.0 * cells : 0.0, periodic ? 2.0 * cells - 1 : cells - 1.0));
+    };
+    const std::int32_t low = cell_of(x - reach), high = cell_of(x + reach);
+    std::vector<CellAt> met;
+    if (high - low + 1 >= cells)
+        for (std::int32_t n = 0; n < cells; ++n) met.push_back({n, periodic});
+    else
+        for (std::int32_t n = low; n <= high; ++n) met.push_back({(n + cells) % cells, n < 0 || n >= cells});
+    return met;
+}
+
+// Calls body(n) for the sorted particles n of all classes in the cells around the particle.
+template <int dimension, class Body>
+void for_reached(const CellView& cells, std::int32_t self, double skin, const Body& body) {
+    for (std::int32_t c = 0; c < cells.classes; ++c) {
+        const CellGrid& grid = cells.grids[c];
+        const double reach = (cells.radius[self] + grid.radius + skin) * cell_margin;
+        const auto met = [&](int d) {
+            if (d >= dimension) return std::vector<CellAt>{{0, false}};
+            return cells_met(cells.position[d][self], reach, grid, d, cells.periodic[d]);
+        };
+        const std::vector<CellAt> columns = met(0), rows = met(1), layers = met(2);
+        std::vector<CellAt> whole_row;
+        for (std::int32_t n = 0; n < grid.count[0]; ++n) whole_row.push_back({n, false});
+        for (const CellAt layer : layers)
+            for (const CellAt row : rows)
+                for (const CellAt column : cells.sheared&& row.beyond ? whole_row : columns) {
+                    const std::ptrdiff_t cell =
+                        (std::ptrdiff_t{layer.index} * grid.count[1] + row.index) * grid.count[0] +
+                        column.index;
+                    for (std::int32_t n = grid.start[cell]; n < grid.start[cell + 1]; ++n) body(n);
+                }
+    }
+}
+
 template <int dimension>
 double square_distance(const CellView& cells, const PairView& view, std::int32_t a, std::int32_t b) {
     double apart[dimension], shift = 0, square = 0;
@@ -138,15 +188,29 @@ SweepResult cells_full(const CellView& cells, const PairView& view, PairKernel k
                        std::int32_t row_end) {
     Visit visit{view, kernel, Target::first};
     SweepResult result;
+    const auto look_from = [&](std::int32_t self) {
+        return [&, self](std::int32_t n) {
+            const double sum = cells.radius[n] + cells.radius[self];
+            if (n != self && square_distance<dimension>(cells, view, self, n) < sum * sum * candidate_margin)
+                visit(cells.owner[self], cells.owner[n]);
+        };
+    };
+    for (std::int32_t c = 0; c < cells.classes && cells.classes > 1; ++c) {
+        const CellGrid& grid = cells.grids[c];
+        for (std::int32_t row = 0; row < grid.count[1] * grid.count[2]; ++row) {
+            if (row + grid.first_row < row_begin || row + grid.first_row >= row_end) continue;
+            const std::int32_t* start = grid.start + row * grid.count[0];
+            for (std::int32_t self = start[0]; self < start[grid.count[0]]; ++self) {
+                for_reached<dimension>(cells, self, 0.0, look_from(self));
+                ++result.occupied;
+            }
+        }
+    }
+    if (cells.classes > 1) row_end = row_begin;
     for (std::int32_t cell = row_begin * cells.count[0]; cell < row_end * cells.count[0]; ++cell) {
         result.occupied += cells.start[cell + 1] - cells.start[cell];
         for (std::int32_t self = cells.start[cell]; self < cells.start[cell + 1]; ++self)
-            for_around(cells, cell, [&](std::int32_t n) {
-                const double sum = cells.radius[n] + cells.radius[self];
-                if (n != self &&
-                    square_distance<dimension>(cells, view, self, n) < sum * sum * candidate_margin)
-                    visit(cells.owner[self], cells.owner[n]);
-            });
+            for_around(cells, cell, look_from(self));
     }
     result.largest_overlap = visit.largest;
     return result;
@@ -157,11 +221,15 @@ template <int dimension>
 std::int32_t cell_candidates(const CellView& cells, const PairView& view, std::int32_t cell,
                              std::int32_t self, double skin, std::int32_t* out) {
     std::int32_t count = 0;
-    for_around(cells, cell, [&](std::int32_t n) {
+    const auto look_at = [&](std::int32_t n) {
         const double reach = cells.radius[n] + (cells.radius[self] + skin);
         if (n != self && square_distance<dimension>(cells, view, self, n) < reach * reach)
             out[count++] = cells.owner[n];
-    });
+    };
+    if (cells.classes > 1)
+        for_reached<dimension>(cells, self, skin, look_at);
+    else
+        for_around(cells, cell, look_at);
     return count;
 }
 
