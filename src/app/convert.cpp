@@ -96,7 +96,7 @@ scene::Book to_book(const md::Simulation& sim) {
     const scene::Scene& s = sim.scene();
     book.header.gravity = s.domain.gravity;
     book.header.time = sim.time();
-    book.header.time_step = sim.plan().dt;
+    book.header.time_step = sim.plan().tick;
     book.header.steps = sim.plan().steps;
     book.header.print_every = book.header.energy_every = std::max<std::int64_t>(1, sim.plan().steps / 100);
     book.header.x_0 = s.domain.lower.x;

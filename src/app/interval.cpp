@@ -5,12 +5,12 @@
 
 namespace sandlane::app {
 
-std::int64_t interval(double seconds, double duration, double parts, double dt) {
+std::int64_t interval(double seconds, double duration, double parts, double dt, std::int64_t stride) {
     if (seconds < 0) return never;
     if (seconds == 0) seconds = parts > 0 ? duration / parts : -1;
     if (seconds <= 0) return never;
-    const double steps = seconds / dt;
-    return steps < 1e15 ? std::max<std::int64_t>(1, std::llround(steps)) : never;
+    const double strides = seconds / (dt * static_cast<double>(stride));
+    return strides < 1e14 ? stride * std::max<std::int64_t>(1, std::llround(strides)) : never;
 }
 
 std::int64_t next_multiple(std::int64_t step, std::int64_t every) {

@@ -62,18 +62,18 @@ std::string latest_checkpoint(const fs::path& folder) {
 class Loop {
 public:
     Loop(md::Simulation& sim, RunOutputs& outputs, const Common& common, const RunOptions& options)
-        : sim_(sim), outputs_(outputs), options_(options), last_(last_step(sim, options)),
-          progress_(sim.step(), last_, common.quiet) {}
+        : sim_(sim), outputs_(outputs), last_(last_step(sim, options)), walltime_(options.walltime),
+          check_every_(whole_strides(sim, options.check_every)), progress_(sim.step(), last_, common.quiet) {}
 
     Status run(const Stopwatch& wall) {
         while (sim_.step() < last_) {
             advance(next_stop());
             outputs_.write_due(sim_, false);
-            if (options_.check_every > 0 && sim_.step() % options_.check_every == 0) compare_with_reference();
+            if (check_every_ > 0 && sim_.step() % check_every_ == 0) compare_with_reference();
             progress_.update(sim_.step(), sim_.time(), sim_.state().size());
-            if (sim_.step() == last_) break;
+            if (sim_.step() >= last_) break;
             if (stop_signal != 0) return Status::interrupted;
-            if (options_.walltime > 0 && wall.seconds() > options_.walltime) return Status::walltime;
+            if (walltime_ > 0 && wall.seconds() > walltime_) return Status::walltime;
         }
         return Status::finished;
     }
@@ -86,21 +86,27 @@ private:
         return options.steps >= 0 ? sim.step() + options.steps : std::max(sim.step(), sim.plan().steps);
     }
 
+    // Steps of every length end at multiples of the largest.
+    static std::int64_t whole_strides(const md::Simulation& sim, std::int64_t steps) {
+        const std::int64_t stride = sim.plan().largest_stride;
+        return (steps + stride - 1) / stride * stride;
+    }
+
     [[nodiscard]] std::int64_t next_stop() const {
         std::int64_t stop = std::min({last_, outputs_.next_due(sim_.step()), sim_.step() + slice_});
-        if (options_.check_every > 0)
-            stop = std::min(stop, (sim_.step() / options_.check_every + 1) * options_.check_every);
+        if (check_every_ > 0) stop = std::min(stop, (sim_.step() / check_every_ + 1) * check_every_);
         return stop;
     }
 
     void advance(std::int64_t stop) {
-        const std::int64_t steps = stop - sim_.step();
+        const std::int64_t steps = stop - sim_.step(), before = sim_.taken();
         const Stopwatch clock;
         sim_.run(steps);
         const double seconds = clock.seconds();
+        const std::int64_t taken = sim_.taken() - before;
         timing_.seconds += seconds;
-        timing_.steps += steps;
-        timing_.particle_steps += static_cast<double>(steps) * static_cast<double>(sim_.state().size());
+        timing_.steps += taken;
+        timing_.particle_steps += static_cast<double>(taken) * static_cast<double>(sim_.state().size());
         if (seconds < 0.05 && steps == slice_) slice_ *= 2;
         if (seconds > 0.2 && slice_ > 1) slice_ /= 2;
     }
@@ -114,8 +120,9 @@ private:
 
     md::Simulation& sim_;
     RunOutputs& outputs_;
-    const RunOptions& options_;
     std::int64_t last_;
+    double walltime_; // s
+    std::int64_t check_every_;
     Progress progress_;
     LoopTiming timing_;
     double worst_ = 0;

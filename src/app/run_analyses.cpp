@@ -7,11 +7,11 @@
 
 namespace sandlane::app {
 
-void RunAnalyses::open(const std::filesystem::path& folder, const scene::Scene& scene,
+void RunAnalyses::open(const std::filesystem::path& folder, const scene::Scene& scene, std::int64_t stride,
                        const output::Checkpoint* resume) {
     for (const scene::AnalysisSpec& spec : scene.analyses) {
         const std::string name = "analysis " + spec.name;
-        const std::int64_t every = interval(spec.every, scene.md.duration, 100, scene.md.dt);
+        const std::int64_t every = interval(spec.every, scene.md.duration, 100, scene.md.dt, stride);
         const double start = std::ceil(spec.start / scene.md.dt * (1 - 1e-14));
         entries_.push_back({name, every, start < 1e15 ? static_cast<std::int64_t>(start) : never,
                             output::AnalysisFile(folder, scene, spec, output::bookmark_in(resume, name))});

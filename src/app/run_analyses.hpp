@@ -17,7 +17,7 @@ namespace sandlane::app {
 class RunAnalyses {
 public:
     // scene: with the time step of the run. resume: null for a fresh run.
-    void open(const std::filesystem::path& folder, const scene::Scene& scene,
+    void open(const std::filesystem::path& folder, const scene::Scene& scene, std::int64_t stride,
               const output::Checkpoint* resume);
 
     [[nodiscard]] std::int64_t next_due(std::int64_t step) const;

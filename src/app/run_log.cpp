@@ -10,7 +10,14 @@ namespace sandlane::app {
 
 namespace {
 
-// only: 2 or 3 for scenes of this dimension, 0 for all.
+// Which scenes a column is of.
+using Of = bool (*)(const scene::Scene&);
+constexpr Of all_scenes = [](const scene::Scene&) { return true; };
+constexpr Of in_plane = [](const scene::Scene& s) { return s.domain.dimension == 2; };
+constexpr Of in_space = [](const scene::Scene& s) { return s.domain.dimension == 3; };
+constexpr Of adaptive = [](const scene::Scene& s) { return s.md.adaptive_dt; };
+constexpr Of sheared = [](const scene::Scene& s) { return s.domain.shear_rate != 0; };
+
 struct Entry {
     const char *name, *unit;
     double (*value)(const md::Simulation&, const md::Observables&);
@@ -23,6 +30,7 @@ using Obs = const md::Observables&;
 constexpr Entry entries[] = {
     {"time", "s", [](Sim s, Obs) { return s.time(); }},
     {"step", "1", [](Sim s, Obs) { return static_cast<double>(s.step()); }},
+    {"time_step", "s", [](Sim s, Obs) { return s.plan().dt; }, adaptive},
     {"grains", "1", [](Sim, Obs o) { return static_cast<double>(o.grains); }},
     {"kinetic_energy", "J", [](Sim, Obs o) { return o.kinetic; }},
     {"rotational_energy", "J", [](Sim, Obs o) { return o.rotational; }},

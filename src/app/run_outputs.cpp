@@ -41,16 +41,20 @@ RunOutputs::RunOutputs(const fs::path& folder, const md::Simulation& sim, std::s
                        const output::Checkpoint* resume)
     : scene_(sim.scene()),
       folder_(folder, resume != nullptr ? output::RunFolder::Start::resume : output::RunFolder::Start::fresh),
-      plan_text_(std::move(plan_text)), dt_(sim.plan().dt) {
+      plan_text_(std::move(plan_text)), dt_(sim.plan().tick) {
     const scene::Output& o = scene_.output;
-    const double dt = dt_, duration = scene_.md.duration;
-    log_steps_ = interval(o.log_every, duration, 200, dt);
-    picture_steps_ = interval(o.picture_every, duration, 20, dt);
-    trajectory_steps_ = interval(o.trajectory_every, duration, 100, dt);
-    checkpoint_steps_ = interval(o.checkpoint_every, duration, 0, dt);
-    replay_steps_ = o.report ? interval(0, duration, 200, dt) : never;
+    const double duration = scene_.md.duration;
+    const std::int64_t stride = sim.plan().largest_stride;
+    const auto every = [&](double seconds, double parts) {
+        return interval(seconds, duration, parts, dt_, stride);
+    };
+    log_steps_ = every(o.log_every, 200);
+    picture_steps_ = every(o.picture_every, 20);
+    trajectory_steps_ = every(o.trajectory_every, 100);
+    checkpoint_steps_ = every(o.checkpoint_every, 0);
+    replay_steps_ = o.report ? every(0, 200) : never;
     try {
-        open_files(resume);
+        open_files(resume, stride);
     } catch (...) {
         if (resume == nullptr) folder_.discard();
         throw;
@@ -60,7 +64,7 @@ RunOutputs::RunOutputs(const fs::path& folder, const md::Simulation& sim, std::s
     events_seen_ = sim.events().size(); // the run before has told them
 }
 
-void RunOutputs::open_files(const output::Checkpoint* resume) {
+void RunOutputs::open_files(const output::Checkpoint* resume, std::int64_t stride) {
     write_file_atomically(folder_.path() / "scene.toml", scene::write_scene(scene_));
     write_file_atomically(folder_.path() / "plan.txt", plan_text_);
     log_ = std::make_unique<output::LogWriter>(folder_.path() / "log.csv", log_columns(scene_),
@@ -75,7 +79,7 @@ void RunOutputs::open_files(const output::Checkpoint* resume) {
             trajectories_[name] = output::make_trajectory_writer(kind, folder_.path(), resolved,
                                                                  output::bookmark_in(resume, name));
         }
-    analyses_.open(folder_.path(), resolved, resume);
+    analyses_.open(folder_.path(), resolved, stride, resume);
     if (replay_steps_ != never)
         replay_ =
             std::make_unique<output::ReplayWriter>(folder_.path(), output::bookmark_in(resume, "replay"));
@@ -162,7 +166,7 @@ void RunOutputs::write_report(const md::Simulation& sim, double rate) {
     input.summary = {{"Grains", std::to_string(sim.state().size())},
                      {"Simulated time", fmt::format("{:.4g} s", sim.time())},
                      {"Steps", std::to_string(sim.step())},
-                     {"Time step", fmt::format("{:.4g} s", sim.plan().dt)},
+                     {"Time step", fmt::format("{:.4g} s", sim.plan().tick)},
                      {"Instruction set", std::string(simd::isa_name(sim.plan().isa))},
                      {"Threads", std::to_string(sim.plan().threads)},
                      {"Particle-steps per second", fmt::format("{:.3g}", rate)},

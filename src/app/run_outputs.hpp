@@ -39,7 +39,7 @@ public:
     void spent_before(double seconds) { wall_before_ = seconds; }
 
 private:
-    void open_files(const output::Checkpoint* resume);
+    void open_files(const output::Checkpoint* resume, std::int64_t stride);
     void write_log(const md::Simulation& simulation);
     void write_movie();
     void write_report(const md::Simulation& simulation, double rate);

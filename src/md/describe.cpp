@@ -60,7 +60,7 @@ std::string describe(const scene::Scene& scene, const Needs& needs, const Derive
     line("collision time t_c", fmt::format("{:.4g} s", d.collision_time));
     line("time step", fmt::format("{:.4g} s = t_c/{:.3g}; critical {:.4g} s, recommended {:.4g} s", plan.dt,
                                   d.collision_time / plan.dt, d.critical_dt, d.recommended_dt));
-    line("steps", fmt::format("{} ({:.4g} s)", plan.steps, static_cast<double>(plan.steps) * plan.dt));
+    line("steps", fmt::format("{} ({:.4g} s)", plan.steps, static_cast<double>(plan.steps) * plan.tick));
     line("restitution coefficient", fmt::format("{:.4f} .. {:.4f} at {:.3g} m/s", d.restitution_min,
                                                 d.restitution_max, scene.md.max_speed));
     line("largest overlap",

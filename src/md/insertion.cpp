@@ -73,7 +73,8 @@ void Simulation::insert_due() {
         scene::GrainState grain = waiting_[next_waiting_];
         if (!room.find_place(grain)) {
             ++delayed_;
-            waiting_[next_waiting_].insert_at = static_cast<double>(step_ + retry) * plan_.dt;
+            waiting_[next_waiting_].insert_at =
+                static_cast<double>(step_ + retry * plan_.stride) * plan_.tick;
             const auto from = waiting_.begin() + static_cast<std::ptrdiff_t>(next_waiting_);
             std::stable_sort(from, waiting_.end(),
                              [](const auto& a, const auto& b) { return a.insert_at < b.insert_at; });

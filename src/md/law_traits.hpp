@@ -51,6 +51,8 @@ double collide(const Coefficients& c, double mass, double radius, double speed, 
     return 0;
 }
 
+// stiffness, damping: slopes of the force of a contact over its overlap [N/m] and over the rate of that
+// [kg/s], the largest that it may have there.
 template <class Law> struct LawTraits;
 
 template <> struct LawTraits<laws::LinearDashpot> {
@@ -73,6 +75,8 @@ template <> struct LawTraits<laws::LinearDashpot> {
                                                 : collide<laws::LinearDashpot>(c, mass, radius, speed, time);
         return {frequency, ratio, time, restitution, speed / frequency, time};
     }
+    static double stiffness(const Coefficients& c, double, double) { return c.elastic; }
+    static double damping(const Coefficients& c, double, double) { return c.dissipative; }
 };
 
 template <> struct LawTraits<laws::Viscoelastic> {
@@ -99,6 +103,12 @@ template <> struct LawTraits<laws::Viscoelastic> {
         const double ratio = a * k * std::sqrt(overlap) / (2 * mass * frequency);
         return {frequency, ratio, time, restitution, overlap, time};
     }
+    static double stiffness(const Coefficients& c, double radius, double overlap) {
+        return 1.5 * c.elastic * std::sqrt(radius * overlap);
+    }
+    static double damping(const Coefficients& c, double radius, double overlap) {
+        return c.dissipative * c.elastic * std::sqrt(radius * overlap);
+    }
 };
 
 template <> struct LawTraits<laws::WaltonBraun> {
@@ -122,6 +132,8 @@ template <> struct LawTraits<laws::WaltonBraun> {
         s.half_swing = std::numbers::pi / unloading;
         return s;
     }
+    static double stiffness(const Coefficients& c, double, double) { return c.dissipative; }
+    static double damping(const Coefficients&, double, double) { return 0; }
 };
 
 // The pull draws grains deeper together, where the contact is stiffer.

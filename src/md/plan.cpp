@@ -250,6 +250,16 @@ namespace {
 
 // Sites are numbered with 32 bits; around the domain there is a halo, and rows are padded.
 constexpr double most_sites = 0x1p31, site_margin = 64;
+double contact_time_step(const Scene& scene, const Coefficients& c, double mass, double radius,
+                         double overlap) {
+    return with_traits(scene, [&](auto traits) {
+        const double frequency = std::sqrt(traits.stiffness(c, radius, overlap) / mass);
+        const double ratio = traits.damping(c, radius, overlap) / (2 * mass * frequency);
+        return std::min(std::numbers::pi / 50, 0.25 * stable_phase(order_of(scene.md.integrator), ratio)) /
+               frequency;
+    });
+}
+
 
 // Site edges that divide the domain and keep dx^2 + dy^2 <= r_min^2, 2 R_max <= reach min(dx, dy) (items
 // 2-6). Returns false if no reach up to 4 serves.
@@ -402,13 +412,19 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
              "it could pass through a wall. Lower md.dt below {:.3g} s.",
              plan.dt, scene.md.max_speed, scene.md.max_speed * plan.dt, 0.1 * needs.radius_min,
              0.1 * needs.radius_min / scene.md.max_speed);
-    const double steps = scene.md.duration / plan.dt;
-    if (!(steps <= 0x1p53))
+    if (scene.md.adaptive_dt) { // dt times 1/4, 1/3, 1/2, 2/3, 1, 4/3, 2 and 4
+        plan.least_stride = 3;
+        plan.stride = 12;
+        plan.largest_stride = 48;
+    }
+    plan.tick = plan.dt / static_cast<double>(plan.stride);
+    const double steps = scene.md.duration / plan.tick;
+    if (!(steps <= 0x1p52))
         fail(
             Exit::invalid_input,
-            "md.duration = {:.4g} s: {:.4g} steps of {:.4g} s; allowed: up to 9e15 steps. Lower md.duration.",
-            scene.md.duration, steps, plan.dt);
-    plan.steps = std::llround(steps);
+            "md.duration = {:.4g} s: {:.4g} steps of {:.4g} s; allowed: up to 4e15 steps. Lower md.duration.",
+            scene.md.duration, steps, plan.tick);
+    plan.steps = (std::llround(steps) + plan.largest_stride - 1) / plan.largest_stride * plan.largest_stride;
     choose_neighbours(scene, needs, plan);
     plan.chosen.insert(plan.chosen.begin(), fmt::format("kernels: {}; threads: {} ({})", simd::isa_name(isa),
                                                         plan.threads, threads_reason));

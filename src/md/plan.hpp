@@ -50,8 +50,10 @@ struct Plan {
     bool many_materials = false, many_radii = false, walls = false;
     int normal = 0, tangential = 0; // positions in laws.def
     double inertia_factor = 0.5;    // J = c m R^2
-    double dt = 0;
-    std::int64_t steps = 0;
+    // Time is a number of steps times tick. The time step is dt = stride tick; stride is 1 but where the step
+    // adapts: there it is a divisor of largest_stride, so that all steps meet at multiples of that.
+    double tick = 0, dt = 0; // s
+    std::int64_t steps = 0, stride = 1, least_stride = 1, largest_stride = 1;
     Vec lower, upper;
     // Lattice geometry (docs/physics.md 10).
     int reach = 2;
@@ -72,6 +74,11 @@ struct Plan {
 [[nodiscard]] Derived derive(const scene::Scene& scene, const Needs& needs);
 
 // Throws Error(invalid_input) for a violated precondition of the method asked for (time step, polydispersity,
+// Time step that a contact of reduced mass [kg] and reduced radius [m] needs at this overlap [m], by the
+// rules of derive.
+[[nodiscard]] double contact_time_step(const scene::Scene& scene,
+                                       const laws::PairCoefficients<double>& coefficients, double mass,
+                                       double radius, double overlap);
 // periods).
 [[nodiscard]] Plan make_plan(const scene::Scene& scene, const Needs& needs, const Derived& derived,
                              simd::Isa isa, const ThreadChoice& threads);

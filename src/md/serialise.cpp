@@ -44,7 +44,8 @@ bool suits(const State& state, std::size_t i, const scene::Scene& scene, const P
 std::string Simulation::serialise() const {
     ByteWriter w;
     w.put(step_);
-    w.put(plan_.dt);
+    w.put(plan_.tick);
+    w.put(plan_.stride);
     w.put(static_cast<std::int32_t>(plan_.neighbours));
     w.put(removed_);
     w.put(delayed_);
@@ -74,7 +75,12 @@ void Simulation::restore(const std::string& bytes) {
     ByteReader r(bytes);
     step_ = r.get<std::int64_t>();
     if (step_ < 0 || step_ > std::int64_t{1} << 53) damaged();
-    if (r.get<double>() != plan_.dt) damaged();
+    if (r.get<double>() != plan_.tick) damaged();
+    plan_.stride = r.get<std::int64_t>();
+    if (plan_.stride < plan_.least_stride || plan_.stride > plan_.largest_stride ||
+        plan_.largest_stride % plan_.stride != 0 || step_ % plan_.stride != 0)
+        damaged();
+    plan_.dt = static_cast<double>(plan_.stride) * plan_.tick;
     const auto method = static_cast<scene::NeighbourMethod>(r.get<std::int32_t>());
     removed_ = r.get<std::int64_t>();
     delayed_ = r.get<std::int64_t>();
@@ -110,7 +116,7 @@ void Simulation::restore(const std::string& bytes) {
     if (!r.at_end()) damaged();
     if (is_lattice(plan_.neighbours) && method == scene::NeighbourMethod::link_cells) use_link_cells();
     if (method != plan_.neighbours) damaged();
-    force_step_ = step_ + 1;
+    force_step_ = step_ + plan_.stride;
     sorted_ = true;
     if (lattice_.rows() > 0) lattice_.clear(state_); // the next prediction puts all grains on it
 }

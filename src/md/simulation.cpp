@@ -17,7 +17,6 @@ using scene::NeighbourMethod;
 
 namespace {
 
-constexpr std::int64_t sort_interval = 256; // steps; fixed, because link cells add forces in storage order
 constexpr std::int32_t cell_tile_rows = 4;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -81,21 +80,24 @@ void Simulation::run(std::int64_t steps) {
     const std::int64_t end = step_ + steps;
     while (step_ < end) {
         insert_due();
-        if (step_ % sort_interval == 0 || !sorted_) {
+        if (step_ % sort_steps() == 0 || !sorted_) {
             empty_sinks();
+            choose_method();
+            choose_time_step();
             sort_by_place();
         }
         const std::int64_t stop = next_stop(end);
         integrate(false, true);
         while (step_ < stop) {
-            const bool predict = step_ + 1 < stop;
+            const bool predict = step_ + plan_.stride < stop;
             if (plan_.neighbours == NeighbourMethod::verlet) {
                 forces_and_motion(predict);
             } else {
                 compute_forces();
                 integrate(true, predict);
             }
-            ++step_;
+            step_ += plan_.stride;
+            ++taken_;
         }
     }
 }
@@ -103,15 +105,16 @@ void Simulation::run(std::int64_t steps) {
 // First step at or after the time of insertion; one rule for looking ahead and for inserting, whatever the
 // rounding.
 std::int64_t Simulation::insertion_step(const scene::GrainState& grain) const {
-    const double at = std::ceil(grain.insert_at / plan_.dt * (1 - 1e-14));
+    const double at = std::ceil(grain.insert_at / plan_.tick * (1 - 1e-14));
     return at < 9e15 ? static_cast<std::int64_t>(at) : std::numeric_limits<std::int64_t>::max();
 }
 
 std::int64_t Simulation::next_stop(std::int64_t end) const {
-    std::int64_t stop = std::min(end, (step_ / sort_interval + 1) * sort_interval);
+    const std::int64_t interval = sort_steps();
+    std::int64_t stop = std::min(end, (step_ / interval + 1) * interval);
     if (next_waiting_ < waiting_.size())
         stop = std::min(stop, std::max(step_ + 1, insertion_step(waiting_[next_waiting_])));
-    return stop;
+    return (stop + plan_.stride - 1) / plan_.stride * plan_.stride;
 }
 
 void Simulation::integrate(bool correct, bool predict) {
@@ -141,7 +144,7 @@ simd::MotionKernel Simulation::motion_kernel(bool correct, bool predict) const {
 // records go to the other buffer because tiles that come later still need these.
 void Simulation::forces_and_motion(bool predict) {
     const simd::MotionKernel kernel = motion_kernel(true, predict);
-    simd::MotionView whole = motion_view(force_step_ + 1);
+    simd::MotionView whole = motion_view(force_step_ + plan_.stride);
     whole.new_records = state_.next_record.data();
     whole.new_spins = state_.next_spin.data();
     move_walls();
@@ -160,7 +163,8 @@ void Simulation::forces_and_motion(bool predict) {
     check_overlap(*std::max_element(tile_overlaps_.begin(), tile_overlaps_.end()));
     check_walls();
     add_wall_work();
-    ++force_step_;
+    add_shear_work();
+    force_step_ += plan_.stride;
     state_.record.swap(state_.next_record);
     state_.spin.swap(state_.next_spin);
     if (predict) check_motion();
@@ -219,7 +223,8 @@ void Simulation::compute_forces() {
     pair_forces();
     wall_forces();
     add_wall_work();
-    ++force_step_;
+    add_shear_work();
+    force_step_ += plan_.stride;
 }
 
 // The same for every method: [particle][force_stride], and none are left.
@@ -245,7 +250,7 @@ std::vector<double> Simulation::take_forces() {
                                          : *std::max_element(tile_overlaps_.begin(), tile_overlaps_.end()));
     check_walls();
     add_wall_work();
-    ++force_step_;
+    force_step_ += plan_.stride;
     return forces;
 }
 
@@ -359,7 +364,7 @@ simd::MotionView Simulation::motion_view(std::int64_t predicted) {
         view.period[d] = scene_.domain.periodic[d] ? sizes[d] : 0.0;
     }
     view.sheared = scene_.domain.shear_rate != 0;
-    view.seam = seam(static_cast<double>(predicted) * plan_.dt);
+    view.seam = seam(static_cast<double>(predicted) * plan_.tick);
     view.seam_shift = scene_.domain.shear_rate * size.y * plan_.dt;
     return view;
 }

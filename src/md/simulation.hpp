@@ -21,15 +21,21 @@
 namespace sandlane::md {
 
 class Simulation {
+// Steps from one sort of the storage to the next; fixed, because link cells add forces in storage order.
+inline constexpr std::int64_t sort_interval = 256;
+
 public:
     Simulation(scene::Scene scene, const std::vector<scene::GrainState>& grains, const Needs& needs,
                Plan plan);
 
-    // Runs n time steps; afterwards the state stands at time() = step() dt.
+    // Runs n time steps; afterwards the state stands at time() = step() tick. Where the time step adapts, n
+    // counts ticks, and the run ends with the first whole step at or after them.
     void run(std::int64_t steps);
 
     [[nodiscard]] std::int64_t step() const { return step_; }
-    [[nodiscard]] double time() const { return static_cast<double>(step_) * plan_.dt; }
+    [[nodiscard]] double time() const { return static_cast<double>(step_) * plan_.tick; }
+    // Time steps that run() has taken, of whatever length.
+    [[nodiscard]] std::int64_t taken() const { return taken_; }
     [[nodiscard]] const Plan& plan() const { return plan_; }
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
     [[nodiscard]] const State& state() const { return state_; }
@@ -53,7 +59,8 @@ public:
     [[nodiscard]] double wall_work() const { return wall_work_; }
     // Energy that poured grains brought less what removed ones took, J.
     [[nodiscard]] double added_energy() const { return added_energy_; }
-    // What the contacts have taken so far, J: initial + added energy + work of the walls - present energy.
+    // What the contacts have taken so far, J: initial + added energy + work of the walls and of the
+    // shear - present energy.
     // Includes the elastic energy left when a law's force is cut at zero, and the error of the integrator.
     [[nodiscard]] double dissipated(const Observables& now) const {
         return initial_energy_ + added_energy_ + wall_work_ - now.energy();
@@ -78,6 +85,11 @@ private:
     void keep(const std::vector<std::uint32_t>& kept);
 
     void integrate(bool correct, bool predict);
+    void choose_method();
+    void use_method(scene::NeighbourMethod method);
+    void choose_time_step();
+    void set_stride(std::int64_t stride);
+    [[nodiscard]] double wanted_time_step() const;
     void forces_and_motion(bool predict);
     void check_motion();
     void bin();
@@ -89,7 +101,7 @@ private:
     [[nodiscard]] std::vector<double> take_forces();
     void move_walls();
     // Of the positions that forces are wanted for next, s.
-    [[nodiscard]] double force_time() const { return static_cast<double>(force_step_) * plan_.dt; }
+    [[nodiscard]] double force_time() const { return static_cast<double>(force_step_) * plan_.tick; }
     [[nodiscard]] simd::MotionKernel motion_kernel(bool correct, bool predict) const;
     [[nodiscard]] const simd::DimensionKernels& kernels() const { return kernels_->in(plan_.dimension); }
     [[nodiscard]] const simd::DimensionKernels::Law& law() const {
@@ -116,6 +128,11 @@ private:
     std::vector<double> coefficients_;
     State state_;
     Lattice lattice_;
+    // From one sort to the next, where steps of all lengths meet.
+    [[nodiscard]] std::int64_t sort_steps() const {
+        const std::int64_t whole = plan_.largest_stride;
+        return (sort_interval * plan_.stride + whole - 1) / whole * whole;
+    }
     LinkCells cells_;
     PairLists lists_;
     // Results of the tiles of one pass, and force accumulators of the threads.
@@ -126,7 +143,7 @@ private:
     Walls walls_;
     std::vector<scene::GrainState> waiting_; // poured grains, by time of insertion
     std::size_t next_waiting_ = 0;
-    std::int64_t step_ = 0, force_step_ = 0, removed_ = 0, delayed_ = 0;
+    std::int64_t step_ = 0, force_step_ = 0, removed_ = 0, delayed_ = 0, taken_ = 0;
     double largest_speed_ = 0;
     double initial_energy_ = 0, added_energy_ = 0, wall_work_ = 0, wall_power_ = 0;
     std::vector<std::string> events_;

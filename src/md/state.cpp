@@ -121,6 +121,20 @@ void State::set_accelerations(std::size_t i, const double* forces, const simd::M
         value(i, 3 + d, 2) = view.half_dt2 * (torque(4 + d, 8 + d) * (of_torque * inverse_radius(i)));
 }
 
+void State::rescale(double ratio) {
+    for (std::size_t i = 0; i < size(); ++i) {
+        double* const velocity = record_of(i) + dimension;
+        for (int d = 0; d < dimension; ++d) velocity[d] *= ratio;
+        if (dimension == 2) record_of(i)[simd::Record<2>::spin] *= ratio;
+        if (spin_fields() > 0)
+            for (std::size_t d = 0; d < 3; ++d) spin[i * simd::spin_fields + d] *= ratio;
+        for (int dof = 0; dof < dofs(); ++dof) {
+            double power = ratio;
+            for (int k = 2; k < order; ++k) value(i, dof, k) *= power *= ratio;
+        }
+    }
+}
+
 void State::reorder(std::span<const std::uint32_t> order_of) {
     const auto move = [&](auto& column, std::size_t fields) {
         if (fields == 0) return;

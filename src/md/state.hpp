@@ -76,6 +76,8 @@ struct State {
     void append(const scene::GrainState& grain, double dt);
     // Value k = 2 of all degrees of freedom from the accumulated forces.
     void set_accelerations(std::size_t i, const double* forces, const simd::MotionView& view);
+    // For a time step so many times as long: values k of the integrator are scaled by its powers.
+    void rescale(double ratio);
     // New storage order: position n gets the particle that stood at order[n]; shorter orders drop particles.
     void reorder(std::span<const std::uint32_t> order_of);
     // After a restore: sizes the derived columns and checks that all have one length.

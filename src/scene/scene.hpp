@@ -171,6 +171,7 @@ struct Md {
     Integrator integrator = Integrator::gear5;
     NeighbourMethod neighbours = NeighbourMethod::automatic;
     double dt = 0; // 0: t_c/50 at max_speed
+    bool adaptive_dt = false;
     double duration = 0;
     double max_speed = 1; // m/s: expected largest impact speed, for t_c of the viscoelastic law
     double delta = 0.1;   // lattice: largest overlap in units of the smaller radius
