@@ -149,6 +149,7 @@ struct MotionView {
 struct MotionResult {
     double largest_shift2 = 0; // m^2, of the predicted displacements per step
     std::int64_t outside = 0;  // particles outside the domain after wrapping, or NaN
+    double seam_gain = 0;      // kg m^2: kinetic energy times dt^2 that crossing the seam gave
 };
 // correct: forces -> state at t. predict: state at t -> state at t + dt. advance: both, in one pass.
 using MotionKernel = MotionResult (*)(const MotionView&, std::int64_t begin, std::int64_t end);

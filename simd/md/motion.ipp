@@ -31,19 +31,28 @@ SANDLANE_INLINE Left wrap(Block<Arch>& x, double lower, double upper, double per
     return left;
 }
 
-// Who crosses a Lees-Edwards seam goes on at the place and with the velocity of the image.
+// Who crosses a Lees-Edwards seam goes on at the place and with the velocity of the image. Returns what that
+// gave to the `real` particles from `first` on, kinetic energy times dt^2: that of their velocity in the
+// middle of the step, because the sum over forces across the seam takes half of a step for either side.
+// `bend`: k = 2 along x.
 template <class Arch>
-SANDLANE_INLINE void cross_seam(const MotionView& view, const Left& left, Block<Arch>& x,
-                                Block<Arch>& shift) {
-    double places[width], shifts[width];
+SANDLANE_INLINE double cross_seam(const MotionView& view, const Left& left, std::int64_t first, unsigned real,
+                                  const double* bend, Block<Arch>& x, Block<Arch>& shift) {
+    double places[width], shifts[width], gain = 0;
     store(places, x);
     store(shifts, shift);
     for (int l = 0; l < width; ++l) {
+        if (((left.above | left.below) >> l & 1u) == 0) continue;
+        const double before = shifts[l];
         if ((left.above >> l & 1u) != 0) places[l] -= view.seam, shifts[l] -= view.seam_shift;
         if ((left.below >> l & 1u) != 0) places[l] += view.seam, shifts[l] += view.seam_shift;
+        const double jump = shifts[l] - before;
+        if ((real >> l & 1u) != 0)
+            gain += (before - bend[l] + 0.5 * jump) * jump / view.inverse_mass[first + l];
     }
     x = load<Arch>(places);
     shift = load<Arch>(shifts);
+    return gain;
 }
 
 // What a pass does. Both at once is every step but the first and the last of a run: its kernels are compiled
@@ -85,8 +94,8 @@ template <class Arch> SANDLANE_INLINE Block<Arch> only(unsigned real, const Bloc
 
 // Wraps the predicted positions of eight particles and looks at them and at their speed.
 template <class Arch, int dimension>
-SANDLANE_INLINE void settle(const MotionView& view, std::int64_t first, unsigned real,
-                            Block<Arch> (&record)[record_fields], Block<Arch>& most, std::int64_t& outside) {
+SANDLANE_INLINE void settle(const MotionView& view, std::int64_t first, unsigned real, const double* bend,
+                            Block<Arch> (&record)[record_fields], Block<Arch>& most, MotionResult& result) {
     using R = Block<Arch>;
     unsigned inside = 0xffu;
     R shift2(0.0);
@@ -94,14 +103,15 @@ SANDLANE_INLINE void settle(const MotionView& view, std::int64_t first, unsigned
         if (!(view.period[d] > 0)) continue;
         const Left left =
             wrap(record[d], view.lower[d], view.upper[d], view.period[d], view.image[d] + first);
-        if (d == 1 && left.any() && view.sheared) cross_seam(view, left, record[0], record[dimension]);
+        if (d == 1 && left.any() && view.sheared)
+            result.seam_gain += cross_seam(view, left, first, real, bend, record[0], record[dimension]);
     }
     for (int d = 0; d < dimension; ++d) {
         inside &= bits((record[d] >= R(view.lower[d])) & (record[d] < R(view.upper[d])));
         const R shift = record[dimension + d];
         shift2 = d == 0 ? shift * shift : shift2 + shift * shift;
     }
-    outside += __builtin_popcount(real & ~inside);
+    result.outside += __builtin_popcount(real & ~inside);
     most = max(only(real, shift2), most);
 }
 
@@ -117,7 +127,7 @@ SANDLANE_INLINE MotionResult gear_step(Phase phase, const MotionView& view, std:
                                 R(view.half_dt2));
     };
     R most(0.0);
-    std::int64_t outside = 0;
+    MotionResult result;
     for (std::int64_t first = begin; first < end; first += width) {
         double* gear = view.gear + first * dofs * (order - 2);
         R record[record_fields], force[fields], inverse_mass(0.0);
@@ -147,10 +157,11 @@ SANDLANE_INLINE MotionResult gear_step(Phase phase, const MotionView& view, std:
             Rows<Arch, spin_fields>::store(spin, view.new_spins + first * spin_fields);
         }
         const unsigned real = end - first >= width ? 0xffu : (1u << (end - first)) - 1u;
-        if (phase.predict) settle<Arch, dimension>(view, first, real, record, most, outside);
+        if (phase.predict) settle<Arch, dimension>(view, first, real, gear, record, most, result);
         Rows<Arch, record_fields>::store(record, view.new_records + first * record_fields);
     }
-    return {largest(most), outside};
+    result.largest_shift2 = largest(most);
+    return result;
 }
 
 template <class Arch, int dimension, int order, Rotation rotation>

@@ -39,6 +39,7 @@ constexpr Entry entries[] = {
     {"total_energy", "J", [](Sim, Obs o) { return o.energy(); }},
     {"added_energy", "J", [](Sim s, Obs) { return s.added_energy(); }},
     {"wall_work", "J", [](Sim s, Obs) { return s.wall_work(); }},
+    {"shear_work", "J", [](Sim s, Obs) { return s.shear_work(); }, sheared},
     {"dissipated_energy", "J", [](Sim s, Obs o) { return s.dissipated(o); }},
     {"momentum_x", "kg m/s", [](Sim, Obs o) { return o.momentum.x; }},
     {"momentum_y", "kg m/s", [](Sim, Obs o) { return o.momentum.y; }},
@@ -77,15 +78,11 @@ std::string wall_name(const scene::Scene& scene, std::size_t wall) {
     return plain && same == 1 ? name : fmt::format("wall_{}", wall);
 }
 
-// Calls body(entry) for those that mean something in the scene: energy that a shear flow brings is not
-// booked.
+// Calls body(entry) for those that mean something in the scene.
 template <class Entries, class Body>
-void for_entries(const Entries& table, const scene::Domain& domain, const Body& body) {
-    for (const auto& entry : table) {
-        const bool balance = std::string_view(entry.name) == "dissipated_energy";
-        if (balance && domain.shear_rate != 0) continue;
-        if (entry.only == 0 || entry.only == domain.dimension) body(entry);
-    }
+void for_entries(const Entries& table, const scene::Scene& scene, const Body& body) {
+    for (const auto& entry : table)
+        if (entry.of(scene)) body(entry);
 }
 
 } // namespace

@@ -329,10 +329,13 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
         return;
     }
     const bool sheared = scene.domain.shear_rate != 0; // only lists know the seam
-    const bool small = needs.grains + needs.poured <= few && !sheared;
-    plan.neighbours = small ? NeighbourMethod::brute_force : NeighbourMethod::verlet;
-    plan.chosen.push_back(small ? fmt::format("neighbours: brute force, {} grains or fewer", few)
-                                : "neighbours: Verlet lists, the fastest for more than a few grains");
+    plan.neighbours = sheared ? NeighbourMethod::verlet : automatic_method(needs.grains + needs.poured);
+    const bool small = plan.neighbours == NeighbourMethod::brute_force;
+    plan.chosen.push_back(
+        sheared ? "neighbours: Verlet lists, which alone follow a shear flow"
+                : fmt::format("neighbours: {}; asked again every 256 steps: brute force for {} grains or "
+                              "fewer, else Verlet lists, the fastest at any density",
+                              small ? "brute force" : "Verlet lists", few_grains));
 }
 
 void note_skipped(const Scene& scene, const Needs& needs, Plan& plan) {

@@ -85,6 +85,11 @@ struct Plan {
 
 // Largest R_max/R_min that a mask of the given reach serves: reach (2 - delta)/(2 sqrt 2).
 [[nodiscard]] double lattice_ratio_bound(int reach, double delta);
+// What `auto` takes for so many grains without memory of contacts and without shear; asked again every 256
+// steps.
+[[nodiscard]] scene::NeighbourMethod automatic_method(std::size_t grains);
+inline constexpr std::size_t few_grains = 32;
+
 
 // Memory of the simulation, bytes.
 [[nodiscard]] double memory_bytes(const Needs& needs, const Plan& plan);

@@ -49,7 +49,9 @@ std::string Simulation::serialise() const {
     w.put(static_cast<std::int32_t>(plan_.neighbours));
     w.put(removed_);
     w.put(delayed_);
-    for (const double energy : {initial_energy_, added_energy_, wall_work_, wall_power_}) w.put(energy);
+    for (const double energy :
+         {initial_energy_, added_energy_, wall_work_, wall_power_, shear_work_, shear_power_})
+        w.put(energy);
     w.put(static_cast<std::int32_t>(state_.order));
     w.put(static_cast<std::int32_t>(state_.dofs()));
     w.put_array(state_.gear.data(), state_.gear.size());
@@ -84,7 +86,8 @@ void Simulation::restore(const std::string& bytes) {
     const auto method = static_cast<scene::NeighbourMethod>(r.get<std::int32_t>());
     removed_ = r.get<std::int64_t>();
     delayed_ = r.get<std::int64_t>();
-    for (double* energy : {&initial_energy_, &added_energy_, &wall_work_, &wall_power_})
+    for (double* energy :
+         {&initial_energy_, &added_energy_, &wall_work_, &wall_power_, &shear_work_, &shear_power_})
         *energy = r.get<double>();
     if (r.get<std::int32_t>() != state_.order || r.get<std::int32_t>() != state_.dofs()) damaged();
     r.get_array(state_.gear);
@@ -114,7 +117,12 @@ void Simulation::restore(const std::string& bytes) {
     lists_.adopt(memory());
     walls_.adopt(memory());
     if (!r.at_end()) damaged();
-    if (is_lattice(plan_.neighbours) && method == scene::NeighbourMethod::link_cells) use_link_cells();
+    using scene::NeighbourMethod;
+    const bool left_lattice = is_lattice(plan_.neighbours) && method == NeighbourMethod::link_cells;
+    const bool chosen = scene_.md.neighbours == NeighbourMethod::automatic &&
+                        (method == NeighbourMethod::brute_force || method == NeighbourMethod::verlet) &&
+                        plan_.memory == 0 && scene_.domain.shear_rate == 0;
+    if (method != plan_.neighbours && (left_lattice || chosen)) use_method(method);
     if (method != plan_.neighbours) damaged();
     force_step_ = step_ + plan_.stride;
     sorted_ = true;

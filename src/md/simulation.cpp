@@ -70,7 +70,7 @@ void Simulation::start(const std::vector<scene::GrainState>& grains) {
     const simd::MotionView view = motion_view(force_step_);
     for (std::size_t i = 0; i < state_.size(); ++i)
         state_.set_accelerations(i, forces.data() + i * state_.force_stride(), view);
-    wall_work_ = 0;
+    wall_work_ = shear_work_ = 0;
     initial_energy_ = observe().energy();
 }
 
@@ -222,8 +222,8 @@ void Simulation::compute_forces() {
     move_walls();
     pair_forces();
     wall_forces();
+    for (const simd::MotionResult& r : motion_results_) shear_work_ += r.seam_gain / (plan_.dt * plan_.dt);
     add_wall_work();
-    add_shear_work();
     force_step_ += plan_.stride;
 }
 
@@ -280,6 +280,7 @@ void Simulation::pair_forces() {
         overlap = std::max(overlap, r.largest_overlap);
         occupied += r.occupied;
     }
+    add_shear_work();
     if (occupied != static_cast<std::int64_t>(state_.size())) {
         const Lattice::Clash clash = lattice_.find_clash(state_);
         const auto a = static_cast<std::size_t>(clash.first), b = static_cast<std::size_t>(clash.second);

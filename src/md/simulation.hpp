@@ -58,12 +58,15 @@ public:
     // Work of moving walls on the grains since the start, J: trapezoidal sum over all steps.
     [[nodiscard]] double wall_work() const { return wall_work_; }
     // Energy that poured grains brought less what removed ones took, J.
+    // Work of a shear flow without walls, J: of the forces across its seam, trapezoidal sum over all steps,
+    // and what grains gain as they cross it.
+    [[nodiscard]] double shear_work() const { return shear_work_; }
     [[nodiscard]] double added_energy() const { return added_energy_; }
     // What the contacts have taken so far, J: initial + added energy + work of the walls and of the
     // shear - present energy.
     // Includes the elastic energy left when a law's force is cut at zero, and the error of the integrator.
     [[nodiscard]] double dissipated(const Observables& now) const {
-        return initial_energy_ + added_energy_ + wall_work_ - now.energy();
+        return initial_energy_ + added_energy_ + wall_work_ + shear_work_ - now.energy();
     }
 
     [[nodiscard]] std::int64_t removed() const { return removed_; }
@@ -100,6 +103,8 @@ private:
     void compute_forces();
     [[nodiscard]] std::vector<double> take_forces();
     void move_walls();
+    void add_shear_work();
+    [[nodiscard]] double seam_power(std::size_t tile);
     // Of the positions that forces are wanted for next, s.
     [[nodiscard]] double force_time() const { return static_cast<double>(force_step_) * plan_.tick; }
     [[nodiscard]] simd::MotionKernel motion_kernel(bool correct, bool predict) const;
@@ -151,3 +156,4 @@ private:
 };
 
 } // namespace sandlane::md
+    double shear_work_ = 0, shear_power_ = 0;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace sandlane;
@@ -127,4 +128,55 @@ TEST(Shear, DrivesTheCell) {
     EXPECT_GT(after, 1.5 * before);
     EXPECT_NEAR(end.y, start.y, 1e-10);
     EXPECT_NEAR(end.z, start.z, 1e-10);
+}
+
+// Without loss all work of the shear is there as energy; what is missing is the error of the integrator, some
+// 1e-4 of what collisions exchange, and that of a sum over steps, both of the second order or better.
+TEST(Shear, WorkIsBooked) {
+    for (const int dimension : {2, 3}) {
+        Cell c = cell(dimension, scene::TangentialLaw::none, 1.0);
+        c.scene.materials[0].damping = 0;
+        double missing[2];
+        for (const int finer : {1, 4}) {
+            c.scene.md.dt = 1e-3 / finer;
+            md::Simulation sim = test::make_simulation(c.scene, c.grains, simd::available_isas().back());
+            const double before = sim.observe().energy();
+            sim.run(2000 * finer);
+            const md::Observables now = sim.observe();
+            EXPECT_GT(std::abs(sim.shear_work()), 100);
+            EXPECT_NEAR(now.energy() - before, sim.shear_work(), 1e-3 * std::abs(sim.shear_work()));
+            missing[finer / 4] = std::abs(sim.dissipated(now));
+        }
+        EXPECT_LT(missing[1], 0.25 * missing[0]);
+    }
+}
+
+// Contacts take and never give; springs hold some of it, and give it back.
+TEST(Shear, DissipationGrows) {
+    for (const int dimension : {2, 3}) {
+        Cell c = cell(dimension, scene::TangentialLaw::cundall_strack, 1.0);
+        md::Simulation sim = test::make_simulation(c.scene, c.grains, simd::available_isas().back());
+        double most = 0;
+        for (int part = 0; part < 20; ++part) {
+            sim.run(100);
+            const double now = sim.dissipated(sim.observe());
+            EXPECT_GT(now, most - 0.01 * std::abs(sim.shear_work()));
+            most = std::max(most, now);
+        }
+        EXPECT_GT(most, 100);
+    }
+}
+
+TEST(Shear, WorkIsTheSameAfterACheckpoint) {
+    const Cell c = cell(3, scene::TangentialLaw::cundall_strack, 2.0);
+    md::Simulation straight = test::make_simulation(c.scene, c.grains, simd::available_isas().back());
+    straight.run(500);
+    for (const simd::Isa isa : simd::available_isas()) {
+        md::Simulation first = test::make_simulation(c.scene, c.grains, isa, 2);
+        first.run(277);
+        md::Simulation second = test::make_simulation(c.scene, c.grains, isa, 3);
+        second.restore(first.serialise());
+        second.run(500 - 277);
+        EXPECT_EQ(second.shear_work(), straight.shear_work()) << simd::isa_name(isa);
+    }
 }

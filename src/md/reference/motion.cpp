@@ -37,7 +37,7 @@ void step_value(double* gear, double& value, double& shift, double acceleration,
 }
 
 template <int dimension>
-void settle(const MotionView& view, std::int64_t i, double* record, MotionResult& result) {
+void settle(const MotionView& view, std::int64_t i, double bend, double* record, MotionResult& result) {
     bool inside = true;
     double shift2 = 0;
     for (int d = dimension - 1; d >= 0; --d) { // y before x, which a seam may change
@@ -47,8 +47,11 @@ void settle(const MotionView& view, std::int64_t i, double* record, MotionResult
         if (d != 1 || !view.sheared) continue;
         const double crossed = view.image[d][i] - before;
         if (crossed == 0) continue;
+        const double old = record[dimension];
         record[0] -= crossed * view.seam;
         record[dimension] -= crossed * view.seam_shift;
+        const double jump = record[dimension] - old; // at the velocity in the middle of the step
+        result.seam_gain += (old - bend + 0.5 * jump) * jump / view.inverse_mass[i];
     }
     for (int d = 0; d < dimension; ++d) {
         inside = inside && record[d] >= view.lower[d] && record[d] < view.upper[d];
@@ -94,7 +97,7 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
                      torque(4 + d, 8 + d) * (of_torque * record[Fields::inverse_radius]));
             }
         }
-        if (do_predict) settle<dimension>(view, i, record, result);
+        if (do_predict) settle<dimension>(view, i, *gear, record, result);
         std::copy_n(record, record_fields, view.new_records + i * record_fields);
     }
     return result;
