@@ -436,3 +436,11 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
 }
 
 } // namespace sandlane::md
+    plan.freeze =
+        scene.md.freeze && plan.neighbours == NeighbourMethod::verlet && scene.domain.shear_rate == 0;
+    if (scene.md.adaptive_dt)
+        plan.chosen.push_back(fmt::format("time step: from {:.3g} to {:.3g} s, chosen every 256 steps or so "
+                                          "from the stiffest contact and the fastest grain; steps are "
+                                          "counted in units of {:.3g} s",
+                                          static_cast<double>(plan.least_stride) * plan.tick,
+                                          static_cast<double>(plan.largest_stride) * plan.tick, plan.tick));

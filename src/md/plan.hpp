@@ -46,6 +46,8 @@ struct Plan {
     // Numbers that a contact remembers, and how many of them change sign when its partners are exchanged.
     int memory = 0, odd_memory = 0;
     simd::Rotation rotation = simd::Rotation::none;
+    laws::Couples couples = laws::Couples::none;
+    bool freeze = false;      // tiles of grains at rest are stepped over
     bool orientation = false; // 3D: followed for outputs
     bool many_materials = false, many_radii = false, walls = false;
     int normal = 0, tangential = 0; // positions in laws.def

@@ -88,6 +88,7 @@ void Simulation::run(std::int64_t steps) {
         }
         const std::int64_t stop = next_stop(end);
         integrate(false, true);
+        still_builds_ = -1; // the records were written in place
         while (step_ < stop) {
             const bool predict = step_ + plan_.stride < stop;
             if (plan_.neighbours == NeighbourMethod::verlet) {
@@ -149,17 +150,28 @@ void Simulation::forces_and_motion(bool predict) {
     whole.new_spins = state_.next_spin.data();
     move_walls();
     lists_.update(state_, pair_view(), kernels(), plan_.threads, force_time());
-    const std::size_t n = state_.size();
-    motion_results_.assign(state_.tiles(), {});
-    wall_results_.assign(state_.tiles(), {});
-    tile_overlaps_.assign(state_.tiles(), 0.0);
+    // What a tile that is stepped over gave last time still holds.
+    motion_results_.resize(state_.tiles());
+    wall_results_.resize(state_.tiles());
+    tile_overlaps_.resize(state_.tiles());
+    const bool watch = plan_.freeze && predict;
+    if (watch) watch_still_tiles();
     for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
-        const std::size_t begin = tile * tile_size, end = std::min(n, begin + tile_size);
-        simd::MotionView view = whole;
-        view.force = add_tile_forces(tile);
-        motion_results_[tile] =
-            kernel(view, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end));
+        if (watch && still_.can_skip(tile)) return;
+        if (!watch) return step_tile(tile, kernel, whole);
+        const auto look = [&](const auto& at) { // the list and what walls remember, before or after
+            at(lists_.tile(tile, state_), simd::memory_row(plan_.memory), walls_.memory_of_tile(tile));
+        };
+        if (still_.at_rest(tile))
+            look([&](const simd::TileList& list, int row, const std::vector<double>& of_walls) {
+                still_.before(tile, state_, list, row, of_walls);
+            });
+        step_tile(tile, kernel, whole);
+        look([&](const simd::TileList& list, int row, const std::vector<double>& of_walls) {
+            still_.after(tile, state_, list, row, of_walls, walls_.moves_near(tile));
+        });
     });
+    if (watch) still_.advance();
     check_overlap(*std::max_element(tile_overlaps_.begin(), tile_overlaps_.end()));
     check_walls();
     add_wall_work();
@@ -168,6 +180,24 @@ void Simulation::forces_and_motion(bool predict) {
     state_.record.swap(state_.next_record);
     state_.spin.swap(state_.next_spin);
     if (predict) check_motion();
+}
+
+// Forces at the predicted positions and what follows from them for the grains of one tile.
+void Simulation::step_tile(std::size_t tile, simd::MotionKernel kernel, simd::MotionView view) {
+    const std::size_t begin = tile * tile_size, end = std::min(state_.size(), begin + tile_size);
+    view.force = add_tile_forces(tile);
+    motion_results_[tile] = kernel(view, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end));
+}
+
+// What is known of tiles at rest holds for the lists that it was seen with.
+void Simulation::watch_still_tiles() {
+    const std::int64_t builds = lists_.builds() + walls_.builds();
+    if (builds != still_builds_) still_.reset(state_.tiles());
+    for (std::size_t tile = 0; tile < state_.tiles() && lists_.refreshes() != still_refreshes_; ++tile)
+        if (builds == still_builds_ && still_.at_rest(tile))
+            still_.see_partners(tile, lists_.tile(tile, state_));
+    still_builds_ = builds;
+    still_refreshes_ = lists_.refreshes();
 }
 
 // Forces on the grains of a tile in the calling thread's accumulator, which the motion kernel clears.

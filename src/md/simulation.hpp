@@ -9,6 +9,7 @@
 #include "md/pair_lists.hpp"
 #include "md/plan.hpp"
 #include "md/state.hpp"
+#include "md/still_tiles.hpp"
 #include "md/walls.hpp"
 #include "scene/cell_grid.hpp"
 #include "scene/scene.hpp"
@@ -69,6 +70,8 @@ public:
         return initial_energy_ + added_energy_ + wall_work_ + shear_work_ - now.energy();
     }
 
+    // Tiles of grains at rest that the last step went over; see md.freeze.
+    [[nodiscard]] std::size_t still_tiles() const { return plan_.freeze ? still_.skipped() : 0; }
     [[nodiscard]] std::int64_t removed() const { return removed_; }
     [[nodiscard]] std::int64_t delayed() const { return delayed_; }
     [[nodiscard]] const std::vector<std::string>& events() const { return events_; }
@@ -104,6 +107,8 @@ private:
     [[nodiscard]] std::vector<double> take_forces();
     void move_walls();
     void add_shear_work();
+    void watch_still_tiles();
+    void step_tile(std::size_t tile, simd::MotionKernel kernel, simd::MotionView view);
     [[nodiscard]] double seam_power(std::size_t tile);
     // Of the positions that forces are wanted for next, s.
     [[nodiscard]] double force_time() const { return static_cast<double>(force_step_) * plan_.tick; }
@@ -140,6 +145,8 @@ private:
     }
     LinkCells cells_;
     PairLists lists_;
+    StillTiles still_;                                      // with md.freeze
+    std::int64_t still_builds_ = -1, still_refreshes_ = -1; // of the lists that it knows
     // Results of the tiles of one pass, and force accumulators of the threads.
     std::vector<simd::MotionResult> motion_results_;
     std::vector<WallResult> wall_results_;

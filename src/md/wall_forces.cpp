@@ -233,7 +233,26 @@ void Walls::list_near_elements(const State& state, const double* records) {
     }
 }
 
+std::vector<double> Walls::memory_of_tile(std::size_t tile) const {
+    std::vector<double> values;
+    if (tile_begin_.empty()) return values;
+    for (std::size_t f = 0; f < static_cast<std::size_t>(fields_); ++f) {
+        const double* of_field = near_memory_.data() + f * near_.size();
+        values.insert(values.end(), of_field + tile_begin_[tile], of_field + tile_begin_[tile + 1]);
+    }
+    return values;
+}
+
+bool Walls::moves_near(std::size_t tile) const {
+    if (tile_begin_.empty()) return false;
+    const auto first = near_.begin();
+    return std::any_of(first + static_cast<std::ptrdiff_t>(tile_begin_[tile]),
+                       first + static_cast<std::ptrdiff_t>(tile_begin_[tile + 1]),
+                       [&](const NearWall& n) { return element(n.element).motion >= 0; });
+}
+
 void Walls::rebuild(const State& state, const double* records) {
+    ++builds_;
     near_.clear();
     tile_begin_.assign(1, 0);
     if (surfaces_)

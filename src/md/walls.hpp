@@ -136,6 +136,10 @@ public:
     // Adds the wall forces on the grains of one tile; `list` = false looks at every element (reference).
     [[nodiscard]] WallResult add_forces(WallInput input, std::size_t tile, std::size_t grains, bool list);
     [[nodiscard]] std::size_t list_size() const { return near_.size(); }
+    // Of the candidates of one tile: what their contacts remember, and whether one of them moves.
+    [[nodiscard]] std::vector<double> memory_of_tile(std::size_t tile) const;
+    [[nodiscard]] bool moves_near(std::size_t tile) const;
+    [[nodiscard]] std::int64_t builds() const { return builds_; }
 
     [[nodiscard]] std::vector<analysis::WallShape> shapes(double time) const;
     // Calls body(element) for the elements that may touch a grain of radius R at p.
@@ -194,6 +198,7 @@ private:
     ContactMemory remembered_; // while there is no list
     int fields_ = 0;           // numbers that a contact remembers
     bool stale_ = true;
+    std::int64_t builds_ = 0;
     Vec lower_, upper_;
     std::array<bool, 3> periodic_{};
     double skin_ = 0, budget_ = -1, fastest_ = 0, radius_max_ = 0;

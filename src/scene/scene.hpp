@@ -179,6 +179,7 @@ struct Md {
     Body body = Body::sphere;
     bool cut = true; // normal forces end at zero: contacts do not pull
     LeverArm lever_arm = LeverArm::undeformed;
+    bool freeze = false;      // steps over grains at rest
     bool orientation = false; // 3D: follows the orientations of the grains
 };
 

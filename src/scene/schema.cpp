@@ -130,7 +130,11 @@ const Table<Material>& material_table() {
                     "coefficient mu_r: the couple against rolling is at most mu_r R_eff f_n; needs "
                     "rolling_damping or rolling_stiffness, and a tangential law")
             .number("rolling_damping", &Material::rolling_damping, Unit::rolling_damping, not_negative(),
-                    "couple against slow rolling over its rate, gamma_r");
+                    "couple against slow rolling over its rate, gamma_r")
+            .number("rolling_stiffness", &Material::rolling_stiffness, Unit::rolling_stiffness,
+                    not_negative(),
+                    "couple against rolling over its angle, k_r: grains stand still below mu_r; needs a "
+                    "tangential law with a spring");
     return table;
 }
 
@@ -180,6 +184,10 @@ const Table<Md>& md_table() {
                   "follows the orientations of the grains, as quaternions in trajectories that have them; no "
                   "force depends on them")
             .only(3, "the angle of the grains, which is always followed with friction")
+            .flag(
+                "freeze", &Md::freeze,
+                "steps over regions in which nothing moves to the last bit; changes no result. With lists of "
+                "pairs and without shear_rate")
             .choice("tangential", &Md::tangential, tangential_choices(), "tangential force")
             .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6", "velocity-verlet"},
                     "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet")
