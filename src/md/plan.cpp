@@ -93,6 +93,12 @@ void set_memory(Plan& plan) {
 
 } // namespace
 
+// Lists are measured to be the fastest from a few grains on, at any density and speed; `tools/bench scenes`
+// and `tools/bench kernels` show it.
+NeighbourMethod automatic_method(std::size_t grains) {
+    return grains <= few_grains ? NeighbourMethod::brute_force : NeighbourMethod::verlet;
+}
+
 double lattice_ratio_bound(int reach, double delta) {
     return reach * (2 - delta) / (2 * std::numbers::sqrt2);
 }
@@ -114,6 +120,7 @@ std::vector<double> pair_table(const Scene& scene) {
                     std::min(p.cohesion, q.cohesion),
                     std::min(p.rolling_friction, q.rolling_friction),
                     std::min(p.rolling_damping, q.rolling_damping),
+                    std::min(p.rolling_stiffness, q.rolling_stiffness),
                     scene.md.cut ? 0.0 : -std::numeric_limits<double>::infinity(),
                     scene.md.lever_arm == scene::LeverArm::plane ? 1.0 : 0.0};
                 const double values[] = {mixed.elastic,
@@ -122,9 +129,9 @@ std::vector<double> pair_table(const Scene& scene) {
                                          mixed.friction,
                                          mixed.tangential_stiffness,
                                          mixed.cohesion,
-                    std::min(p.rolling_stiffness, q.rolling_stiffness),
                                          mixed.rolling_friction,
                                          mixed.rolling_damping,
+                                         mixed.rolling_stiffness,
                                          mixed.least,
                                          mixed.lever};
                 static_assert(std::size(values) == laws::pair_coefficients);
@@ -133,7 +140,6 @@ std::vector<double> pair_table(const Scene& scene) {
                     const bool here = (pair.first == p.name && pair.second == q.name) ||
                                       (pair.first == q.name && pair.second == p.name);
                     if (!here) continue;
-                                         mixed.rolling_stiffness,
                     const double given[] = {
                         traits.elastic(pair),  traits.dissipative(pair),  pair.tangential_damping,
                         pair.friction,         pair.tangential_stiffness, pair.cohesion,
@@ -223,6 +229,10 @@ Derived derive(const Scene& scene, const Needs& needs) {
         if (c.rolling_friction > 0 && c.rolling_damping > 0)
             bound(stable_damping(order) * inertia_of_two / c.rolling_damping,
                   0.15 * inertia_of_two / c.rolling_damping);
+        if (c.rolling_friction > 0 && c.rolling_stiffness > 0) {
+            const double frequency = std::sqrt(c.rolling_stiffness / inertia_of_two);
+            const double ratio = c.rolling_damping / (2 * std::sqrt(c.rolling_stiffness * inertia_of_two));
+            bound(stable_phase(order, ratio) / frequency, std::numbers::pi / frequency / 50);
         }
         if (!needs.friction || c.friction == 0) continue;
         const double tangential_mass = 1 / (2 / needs.mass_min * (1 + 1 / inertia)); // of two light grains
@@ -232,10 +242,6 @@ Derived derive(const Scene& scene, const Needs& needs) {
         if (has_spring(scene.md.tangential)) { // which swings at its own frequency
             const double frequency = std::sqrt(c.tangential_stiffness / tangential_mass);
             const double ratio =
-        if (c.rolling_friction > 0 && c.rolling_stiffness > 0) {
-            const double frequency = std::sqrt(c.rolling_stiffness / inertia_of_two);
-            const double ratio = c.rolling_damping / (2 * std::sqrt(c.rolling_stiffness * inertia_of_two));
-            bound(stable_phase(order, ratio) / frequency, std::numbers::pi / frequency / 50);
                 c.tangential_damping / (2 * std::sqrt(c.tangential_stiffness * tangential_mass));
             bound(stable_phase(order, ratio) / frequency, std::numbers::pi / frequency / 50);
         }
@@ -244,12 +250,6 @@ Derived derive(const Scene& scene, const Needs& needs) {
     return d;
 }
 
-// ---- the plan
-
-namespace {
-
-// Sites are numbered with 32 bits; around the domain there is a halo, and rows are padded.
-constexpr double most_sites = 0x1p31, site_margin = 64;
 double contact_time_step(const Scene& scene, const Coefficients& c, double mass, double radius,
                          double overlap) {
     return with_traits(scene, [&](auto traits) {
@@ -260,6 +260,12 @@ double contact_time_step(const Scene& scene, const Coefficients& c, double mass,
     });
 }
 
+// ---- the plan
+
+namespace {
+
+// Sites are numbered with 32 bits; around the domain there is a halo, and rows are padded.
+constexpr double most_sites = 0x1p31, site_margin = 64;
 
 // Site edges that divide the domain and keep dx^2 + dy^2 <= r_min^2, 2 R_max <= reach min(dx, dy) (items
 // 2-6). Returns false if no reach up to 4 serves.
@@ -431,11 +437,6 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     choose_neighbours(scene, needs, plan);
     plan.chosen.insert(plan.chosen.begin(), fmt::format("kernels: {}; threads: {} ({})", simd::isa_name(isa),
                                                         plan.threads, threads_reason));
-    note_skipped(scene, needs, plan);
-    return plan;
-}
-
-} // namespace sandlane::md
     plan.freeze =
         scene.md.freeze && plan.neighbours == NeighbourMethod::verlet && scene.domain.shear_rate == 0;
     if (scene.md.adaptive_dt)
@@ -444,3 +445,8 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
                                           "counted in units of {:.3g} s",
                                           static_cast<double>(plan.least_stride) * plan.tick,
                                           static_cast<double>(plan.largest_stride) * plan.tick, plan.tick));
+    note_skipped(scene, needs, plan);
+    return plan;
+}
+
+} // namespace sandlane::md

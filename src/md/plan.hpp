@@ -74,24 +74,24 @@ struct Plan {
 
 [[nodiscard]] Needs analyse(const scene::Scene& scene, const std::vector<scene::GrainState>& grains);
 [[nodiscard]] Derived derive(const scene::Scene& scene, const Needs& needs);
-
-// Throws Error(invalid_input) for a violated precondition of the method asked for (time step, polydispersity,
 // Time step that a contact of reduced mass [kg] and reduced radius [m] needs at this overlap [m], by the
 // rules of derive.
 [[nodiscard]] double contact_time_step(const scene::Scene& scene,
                                        const laws::PairCoefficients<double>& coefficients, double mass,
                                        double radius, double overlap);
+
+// Throws Error(invalid_input) for a violated precondition of the method asked for (time step, polydispersity,
 // periods).
 [[nodiscard]] Plan make_plan(const scene::Scene& scene, const Needs& needs, const Derived& derived,
                              simd::Isa isa, const ThreadChoice& threads);
 
-// Largest R_max/R_min that a mask of the given reach serves: reach (2 - delta)/(2 sqrt 2).
-[[nodiscard]] double lattice_ratio_bound(int reach, double delta);
 // What `auto` takes for so many grains without memory of contacts and without shear; asked again every 256
 // steps.
 [[nodiscard]] scene::NeighbourMethod automatic_method(std::size_t grains);
 inline constexpr std::size_t few_grains = 32;
 
+// Largest R_max/R_min that a mask of the given reach serves: reach (2 - delta)/(2 sqrt 2).
+[[nodiscard]] double lattice_ratio_bound(int reach, double delta);
 
 // Memory of the simulation, bytes.
 [[nodiscard]] double memory_bytes(const Needs& needs, const Plan& plan);

@@ -222,6 +222,7 @@ void Simulation::check_motion() {
         outside += r.outside;
     }
     largest_speed_ = std::sqrt(shift2) / plan_.dt;
+    for (const simd::MotionResult& r : motion_results_) shear_work_ += r.seam_gain / (plan_.dt * plan_.dt);
     if (largest_speed_ * plan_.dt > 0.1 * needs_.radius_min)
         fail(
             Exit::unstable,
@@ -252,7 +253,6 @@ void Simulation::compute_forces() {
     move_walls();
     pair_forces();
     wall_forces();
-    for (const simd::MotionResult& r : motion_results_) shear_work_ += r.seam_gain / (plan_.dt * plan_.dt);
     add_wall_work();
     force_step_ += plan_.stride;
 }
@@ -280,6 +280,7 @@ std::vector<double> Simulation::take_forces() {
                                          : *std::max_element(tile_overlaps_.begin(), tile_overlaps_.end()));
     check_walls();
     add_wall_work();
+    add_shear_work();
     force_step_ += plan_.stride;
     return forces;
 }
@@ -310,11 +311,10 @@ void Simulation::pair_forces() {
         overlap = std::max(overlap, r.largest_overlap);
         occupied += r.occupied;
     }
-    add_shear_work();
     if (occupied != static_cast<std::int64_t>(state_.size())) {
         const Lattice::Clash clash = lattice_.find_clash(state_);
         const auto a = static_cast<std::size_t>(clash.first), b = static_cast<std::size_t>(clash.second);
-        use_link_cells();
+        use_method(NeighbourMethod::link_cells);
         events_.push_back(
             fmt::format("DELTA_EXCEEDED: grains {} and {} share a lattice site at step {}: their "
                         "overlap exceeds delta = {} of R_min; link cells from here on",

@@ -21,10 +21,10 @@
 
 namespace sandlane::md {
 
-class Simulation {
 // Steps from one sort of the storage to the next; fixed, because link cells add forces in storage order.
 inline constexpr std::int64_t sort_interval = 256;
 
+class Simulation {
 public:
     Simulation(scene::Scene scene, const std::vector<scene::GrainState>& grains, const Needs& needs,
                Plan plan);
@@ -58,10 +58,10 @@ public:
 
     // Work of moving walls on the grains since the start, J: trapezoidal sum over all steps.
     [[nodiscard]] double wall_work() const { return wall_work_; }
-    // Energy that poured grains brought less what removed ones took, J.
     // Work of a shear flow without walls, J: of the forces across its seam, trapezoidal sum over all steps,
     // and what grains gain as they cross it.
     [[nodiscard]] double shear_work() const { return shear_work_; }
+    // Energy that poured grains brought less what removed ones took, J.
     [[nodiscard]] double added_energy() const { return added_energy_; }
     // What the contacts have taken so far, J: initial + added energy + work of the walls and of the
     // shear - present energy.
@@ -85,17 +85,17 @@ private:
     void start(const std::vector<scene::GrainState>& grains);
     void sort_by_place();
     void insert_due();
+    void choose_method();
+    void use_method(scene::NeighbourMethod method);
+    void choose_time_step();
+    void set_stride(std::int64_t stride);
+    [[nodiscard]] double wanted_time_step() const;
     class Room;
     void empty_sinks();
     void take_out(std::size_t grain);
     void keep(const std::vector<std::uint32_t>& kept);
 
     void integrate(bool correct, bool predict);
-    void choose_method();
-    void use_method(scene::NeighbourMethod method);
-    void choose_time_step();
-    void set_stride(std::int64_t stride);
-    [[nodiscard]] double wanted_time_step() const;
     void forces_and_motion(bool predict);
     void check_motion();
     void bin();
@@ -103,13 +103,13 @@ private:
     void wall_forces();
     void check_walls() const;
     void add_wall_work();
+    void add_shear_work();
+    [[nodiscard]] double seam_power(std::size_t tile);
     void compute_forces();
     [[nodiscard]] std::vector<double> take_forces();
-    void move_walls();
-    void add_shear_work();
     void watch_still_tiles();
     void step_tile(std::size_t tile, simd::MotionKernel kernel, simd::MotionView view);
-    [[nodiscard]] double seam_power(std::size_t tile);
+    void move_walls();
     // Of the positions that forces are wanted for next, s.
     [[nodiscard]] double force_time() const { return static_cast<double>(force_step_) * plan_.tick; }
     [[nodiscard]] simd::MotionKernel motion_kernel(bool correct, bool predict) const;
@@ -128,6 +128,11 @@ private:
     [[nodiscard]] double seam(double time) const;
     [[nodiscard]] scene::Box box(double time) const;
     [[nodiscard]] simd::PairView pair_view();
+    // From one sort to the next, where steps of all lengths meet.
+    [[nodiscard]] std::int64_t sort_steps() const {
+        const std::int64_t whole = plan_.largest_stride;
+        return (sort_interval * plan_.stride + whole - 1) / whole * whole;
+    }
     [[nodiscard]] std::int64_t insertion_step(const scene::GrainState& grain) const;
     [[nodiscard]] std::int64_t next_stop(std::int64_t end) const;
 
@@ -138,11 +143,6 @@ private:
     std::vector<double> coefficients_;
     State state_;
     Lattice lattice_;
-    // From one sort to the next, where steps of all lengths meet.
-    [[nodiscard]] std::int64_t sort_steps() const {
-        const std::int64_t whole = plan_.largest_stride;
-        return (sort_interval * plan_.stride + whole - 1) / whole * whole;
-    }
     LinkCells cells_;
     PairLists lists_;
     StillTiles still_;                                      // with md.freeze
@@ -158,9 +158,9 @@ private:
     std::int64_t step_ = 0, force_step_ = 0, removed_ = 0, delayed_ = 0, taken_ = 0;
     double largest_speed_ = 0;
     double initial_energy_ = 0, added_energy_ = 0, wall_work_ = 0, wall_power_ = 0;
+    double shear_work_ = 0, shear_power_ = 0;
     std::vector<std::string> events_;
     bool sorted_ = false;
 };
 
 } // namespace sandlane::md
-    double shear_work_ = 0, shear_power_ = 0;

@@ -194,6 +194,9 @@ const Table<Md>& md_table() {
             .choice("neighbours", &Md::neighbours, neighbour_choices(), "pair finding")
             .number("dt", &Md::dt, Unit::time, not_negative(),
                     "time step; 0: chosen from the stiffest contact (t_c/50)")
+            .flag("adaptive_dt", &Md::adaptive_dt,
+                  "the time step follows the stiffest contact, from dt/4 to 4 dt, chosen every 256 steps or "
+                  "so; steps are counted in twelfths of dt")
             .number("duration", &Md::duration, Unit::time, not_negative(), "simulated time; 0: no steps")
             .number("max_speed", &Md::max_speed, Unit::speed, positive(),
                     "largest impact speed expected; the time step is derived from it")
@@ -202,9 +205,6 @@ const Table<Md>& md_table() {
             .only(2)
             .choice("inertia", &Md::inertia, {"disc", "sphere"},
                     "moment of inertia: m R^2/2 or 2/5 m R^2; 3D: always that of the sphere")
-            .flag("adaptive_dt", &Md::adaptive_dt,
-                  "the time step follows the stiffest contact, from dt/4 to 4 dt, chosen every 256 steps or "
-                  "so; steps are counted in twelfths of dt")
             .choice("body", &Md::body, {"sphere", "disc"},
                     "mass: 4/3 pi R^3 rho, or pi R^2 rho times one metre; 3D: always that of the sphere");
     return table;
