@@ -65,18 +65,9 @@ void Simulation::bin() {
     lattice_.enter(state_, 0, state_.size());
 }
 
-void Simulation::use_method(NeighbourMethod method) {
-    plan_.neighbours = method;
+void Simulation::use_link_cells() {
+    plan_.neighbours = NeighbourMethod::link_cells;
     prepare_method();
-}
-
-// `auto`, once more: what suits the grains that there are now. A function of the state, before it is sorted.
-void Simulation::choose_method() {
-    const bool free = scene_.md.neighbours == NeighbourMethod::automatic && plan_.memory == 0 &&
-                      scene_.domain.shear_rate == 0;
-    if (!free) return;
-    const NeighbourMethod best = automatic_method(state_.size());
-    if (best != plan_.neighbours) use_method(best);
 }
 
 void Simulation::check_overlap(double overlap) const {

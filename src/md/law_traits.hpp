@@ -4,6 +4,7 @@
 
 #include "laws/contact.hpp"
 #include "laws/restitution.hpp"
+#include "md/law_choice.hpp"
 #include "scene/scene.hpp"
 
 #include <cmath>
@@ -164,5 +165,11 @@ private:
         return overlap;
     }
 };
+
+// Calls body(traits) with the traits of the scene's normal law.
+template <class Body> auto with_traits(const scene::Scene& scene, const Body& body) {
+    return with_normal_law(static_cast<int>(scene.md.normal),
+                           [&]<class Law>(Type<Law>) { return body(LawTraits<Law>{}); });
+}
 
 } // namespace sandlane::md

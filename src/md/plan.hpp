@@ -64,6 +64,26 @@ struct Plan {
     std::vector<std::string> chosen, skipped; // one reason per line
 };
 
+// Values that the integrator stores.
+[[nodiscard]] constexpr int order_of(scene::Integrator integrator) {
+    switch (integrator) {
+    case scene::Integrator::gear4:
+        return 4;
+    case scene::Integrator::gear5:
+        return 5;
+    case scene::Integrator::gear6:
+        return 6;
+    case scene::Integrator::velocity_verlet:
+        return 3;
+    }
+    return 5;
+}
+
+// Laws whose contacts hold a spring.
+[[nodiscard]] constexpr bool has_spring(scene::TangentialLaw law) {
+    return law == scene::TangentialLaw::cundall_strack || law == scene::TangentialLaw::walton_braun;
+}
+
 [[nodiscard]] constexpr bool turns(const Plan& plan) {
     return plan.rotation != simd::Rotation::none;
 }
@@ -84,11 +104,6 @@ struct Plan {
 // periods).
 [[nodiscard]] Plan make_plan(const scene::Scene& scene, const Needs& needs, const Derived& derived,
                              simd::Isa isa, const ThreadChoice& threads);
-
-// What `auto` takes for so many grains without memory of contacts and without shear; asked again every 256
-// steps.
-[[nodiscard]] scene::NeighbourMethod automatic_method(std::size_t grains);
-inline constexpr std::size_t few_grains = 32;
 
 // Largest R_max/R_min that a mask of the given reach serves: reach (2 - delta)/(2 sqrt 2).
 [[nodiscard]] double lattice_ratio_bound(int reach, double delta);

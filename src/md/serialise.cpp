@@ -117,12 +117,7 @@ void Simulation::restore(const std::string& bytes) {
     lists_.adopt(memory());
     walls_.adopt(memory());
     if (!r.at_end()) damaged();
-    using scene::NeighbourMethod;
-    const bool left_lattice = is_lattice(plan_.neighbours) && method == NeighbourMethod::link_cells;
-    const bool chosen = scene_.md.neighbours == NeighbourMethod::automatic &&
-                        (method == NeighbourMethod::brute_force || method == NeighbourMethod::verlet) &&
-                        plan_.memory == 0 && scene_.domain.shear_rate == 0;
-    if (method != plan_.neighbours && (left_lattice || chosen)) use_method(method);
+    if (is_lattice(plan_.neighbours) && method == scene::NeighbourMethod::link_cells) use_link_cells();
     if (method != plan_.neighbours) damaged();
     force_step_ = step_ + plan_.stride;
     sorted_ = true;

@@ -82,7 +82,6 @@ void Simulation::run(std::int64_t steps) {
         insert_due();
         if (step_ % sort_steps() == 0 || !sorted_) {
             empty_sinks();
-            choose_method();
             choose_time_step();
             sort_by_place();
         }
@@ -172,7 +171,7 @@ void Simulation::forces_and_motion(bool predict) {
         });
     });
     if (watch) still_.advance();
-    check_overlap(*std::max_element(tile_overlaps_.begin(), tile_overlaps_.end()));
+    check_overlap(largest_overlap());
     check_walls();
     add_wall_work();
     add_shear_work();
@@ -187,6 +186,12 @@ void Simulation::step_tile(std::size_t tile, simd::MotionKernel kernel, simd::Mo
     const std::size_t begin = tile * tile_size, end = std::min(state_.size(), begin + tile_size);
     view.force = add_tile_forces(tile);
     motion_results_[tile] = kernel(view, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end));
+}
+
+// m, of all tiles.
+double Simulation::largest_overlap() const {
+    return std::accumulate(tile_overlaps_.begin(), tile_overlaps_.end(), 0.0,
+                           [](double a, double b) { return std::max(a, b); });
 }
 
 // What is known of tiles at rest holds for the lists that it was seen with.
@@ -276,8 +281,7 @@ std::vector<double> Simulation::take_forces() {
         for (std::size_t n = 0; n < count * state_.force_stride(); ++n)
             forces[begin * state_.force_stride() + n] = std::exchange(force[n], 0.0);
     }
-    check_overlap(tile_overlaps_.empty() ? 0.0
-                                         : *std::max_element(tile_overlaps_.begin(), tile_overlaps_.end()));
+    check_overlap(largest_overlap());
     check_walls();
     add_wall_work();
     add_shear_work();
@@ -314,7 +318,7 @@ void Simulation::pair_forces() {
     if (occupied != static_cast<std::int64_t>(state_.size())) {
         const Lattice::Clash clash = lattice_.find_clash(state_);
         const auto a = static_cast<std::size_t>(clash.first), b = static_cast<std::size_t>(clash.second);
-        use_method(NeighbourMethod::link_cells);
+        use_link_cells();
         events_.push_back(
             fmt::format("DELTA_EXCEEDED: grains {} and {} share a lattice site at step {}: their "
                         "overlap exceeds delta = {} of R_min; link cells from here on",
@@ -337,22 +341,6 @@ void Simulation::wall_forces() {
     check_walls();
 }
 
-WallInput Simulation::wall_input(double* force, std::size_t first) const {
-    return {state_.record.data(),
-            state_.material.data(),
-            coefficients_.data(),
-            static_cast<int>(scene_.materials.size()),
-            force,
-            first,
-            nullptr,
-            nullptr,
-            0,
-            plan_.dt,
-            1.0 / plan_.dt,
-            state_.spin.empty() ? nullptr : state_.spin.data(),
-            static_cast<int>(state_.force_stride())};
-}
-
 void Simulation::check_walls() const {
     WallResult worst;
     for (const WallResult& r : wall_results_)
@@ -371,69 +359,6 @@ void Simulation::add_wall_work() {
     for (const WallResult& r : wall_results_) power += r.power;
     wall_work_ += 0.5 * plan_.dt * (wall_power_ + power);
     wall_power_ = power;
-}
-
-// predicted: step whose positions the prediction gives.
-simd::MotionView Simulation::motion_view(std::int64_t predicted) {
-    const Vec size = plan_.upper - plan_.lower, g = scene_.domain.gravity;
-    const double gravity[] = {g.x, g.y, g.z}, lower[] = {plan_.lower.x, plan_.lower.y, plan_.lower.z};
-    const double upper[] = {plan_.upper.x, plan_.upper.y, plan_.upper.z}, sizes[] = {size.x, size.y, size.z};
-    simd::MotionView view{};
-    view.gear = state_.gear.data();
-    view.records = view.new_records = state_.record.data();
-    view.spins = view.new_spins = state_.spin.data();
-    view.force = state_.force.data();
-    view.inverse_mass = state_.inverse_mass.data();
-    view.inverse_inertia = 1.0 / plan_.inertia_factor;
-    view.half_dt2 = 0.5 * plan_.dt * plan_.dt;
-    view.gravity_spin = plan_.dimension == 2 ? g.z : 0.0;
-    for (std::size_t d = 0; d < 3; ++d) {
-        view.image[d] = state_.image[d].data();
-        view.gravity[d] = gravity[d];
-        view.lower[d] = lower[d];
-        view.upper[d] = upper[d];
-        view.period[d] = scene_.domain.periodic[d] ? sizes[d] : 0.0;
-    }
-    view.sheared = scene_.domain.shear_rate != 0;
-    view.seam = seam(static_cast<double>(predicted) * plan_.tick);
-    view.seam_shift = scene_.domain.shear_rate * size.y * plan_.dt;
-    return view;
-}
-
-// How far along x the images beyond the upper side stand: [-1/2, 1/2) of the period.
-double Simulation::seam(double time) const {
-    if (scene_.domain.shear_rate == 0) return 0;
-    const Vec size = plan_.upper - plan_.lower;
-    const double offset = scene_.domain.shear_rate * size.y * time;
-    return offset - size.x * std::floor(offset / size.x + 0.5);
-}
-
-scene::Box Simulation::box(double time) const {
-    scene::Box box(scene_.domain);
-    box.seam = seam(time);
-    return box;
-}
-
-simd::PairView Simulation::pair_view() {
-    const Vec size = plan_.upper - plan_.lower;
-    const double sizes[] = {size.x, size.y, size.z};
-    simd::PairView view{};
-    view.records = state_.record.data();
-    view.spins = state_.spin.empty() ? nullptr : state_.spin.data();
-    view.material = state_.material.data();
-    view.force = state_.force.data();
-    for (std::size_t d = 0; d < 3; ++d) {
-        view.period[d] = scene_.domain.periodic[d] ? sizes[d] : 0.0;
-        view.half[d] = scene_.domain.periodic[d] ? 0.5 * sizes[d] : infinity;
-    }
-    view.coefficients = coefficients_.data();
-    view.materials = static_cast<std::int32_t>(scene_.materials.size());
-    view.dt = plan_.dt;
-    view.inverse_dt = 1.0 / plan_.dt;
-    view.sheared = scene_.domain.shear_rate != 0;
-    view.seam = seam(force_time());
-    view.seam_shift = scene_.domain.shear_rate * size.y * plan_.dt;
-    return view;
 }
 
 } // namespace sandlane::md

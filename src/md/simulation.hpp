@@ -85,8 +85,7 @@ private:
     void start(const std::vector<scene::GrainState>& grains);
     void sort_by_place();
     void insert_due();
-    void choose_method();
-    void use_method(scene::NeighbourMethod method);
+    void use_link_cells();
     void choose_time_step();
     void set_stride(std::int64_t stride);
     [[nodiscard]] double wanted_time_step() const;
@@ -108,6 +107,7 @@ private:
     void compute_forces();
     [[nodiscard]] std::vector<double> take_forces();
     void watch_still_tiles();
+    [[nodiscard]] double largest_overlap() const;
     void step_tile(std::size_t tile, simd::MotionKernel kernel, simd::MotionView view);
     void move_walls();
     // Of the positions that forces are wanted for next, s.

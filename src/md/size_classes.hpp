@@ -15,8 +15,11 @@ struct SizeClass {
     std::size_t grains = 0;
 };
 
-// Radii that differ by more need classes: below, one grid is faster (`tools/bench sizes`).
-inline constexpr double wide_ratio = 3;
+// Radii that differ by less are one class.
+inline constexpr double wide_ratio = 2;
+// One grid is as fast as several where a cell as wide as the largest grains holds so many grains per class,
+// or fewer.
+inline constexpr double grains_per_class = 5;
 
 // From the smallest radii up, each within a factor of two; empty ones left out. radius(i) of `count` grains.
 template <class Radius> std::vector<SizeClass> size_classes(std::size_t count, const Radius& radius) {

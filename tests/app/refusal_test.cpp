@@ -134,7 +134,7 @@ const BadScene bad_scenes[] = {
      polyline,
      "kind = \"grains\"\nradius = 1e-12\npoints = [[0, 0], [1, 1]]",
      {"walls[0].spacing", "wall grains; allowed: up to 1e+07"}},
-    {"TooManySteps", duration, "duration = 1e300", {"md.duration", "allowed: up to 9e15 steps"}},
+    {"TooManySteps", duration, "duration = 1e300", {"md.duration", "allowed: up to 4e15 steps"}},
     {"Dust", radii, "1e-200", {"grain 0", "beyond the range of numbers"}},
 };
 
@@ -256,7 +256,10 @@ TEST_F(Refusals, ContactLaws) {
                 "\"cohesive-viscoelastic\"");
     EXPECT_SAYS(refused({"materials.0.cohesion=-1"}), "materials[0].cohesion: -1 is out of range");
     EXPECT_SAYS(refused({"materials.0.rolling_friction=0.1"}),
-                "needs both rolling_friction (0.1) and rolling_damping (0)");
+                "needs rolling_friction (0.1) above 0, and rolling_damping (0) or rolling_stiffness (0)");
+    EXPECT_SAYS(refused({"md.tangential=haff-werner", "materials.0.rolling_friction=0.1",
+                         "materials.0.rolling_stiffness=0.1"}),
+                "materials[0].rolling_stiffness: 0.1 needs friction with a spring, too");
     EXPECT_SAYS(refused({"md.tangential=none", "materials.0.rolling_friction=0.1",
                          "materials.0.rolling_damping=1e-6"}),
                 "materials[0].rolling_friction: 0.1 has no effect with md.tangential = \"none\"");

@@ -1,5 +1,6 @@
 // What normal laws mean beyond their formula: mixing rules, overrides, scales of a contact, and the time
 // steps that follow (2.1-2.5, 9.2-9.4).
+#include "md/law_choice.hpp"
 #include "md/law_traits.hpp"
 
 #include "md/support.hpp"
@@ -48,6 +49,7 @@ scene::Scene two_materials() {
     a.cohesion = 1e4;
     a.rolling_friction = 0.1;
     a.rolling_damping = 2e-5;
+    a.rolling_stiffness = 0.3;
     s.materials.push_back(a);
     scene::Material& b = s.materials[1];
     b.name.push_back('2');
@@ -63,6 +65,7 @@ scene::Scene two_materials() {
     b.cohesion = 2e4;
     b.rolling_friction = 0.05;
     b.rolling_damping = 3e-5;
+    b.rolling_stiffness = 0.2;
     return s;
 }
 
@@ -79,6 +82,7 @@ TEST(Mixing, OfUnlikeMaterials) { // 2.5
     EXPECT_EQ(c.cohesion, 1e4);
     EXPECT_EQ(c.rolling_friction, 0.05);
     EXPECT_EQ(c.rolling_damping, 2e-5);
+    EXPECT_EQ(c.rolling_stiffness, 0.2);
     EXPECT_EQ(c.least, 0);
     EXPECT_EQ(c.lever, 0);
     s.md.normal = NormalLaw::walton_braun;
@@ -167,6 +171,32 @@ TEST(Scale, CohesionDrawsDeeper) {
 }
 
 // dt <= pi/(50 w_u) of two of the lightest grains (2.4), though the collision itself lasts longer.
+// Slopes of the force that a law really gives, by differences over 1e-6 of the overlap; the pull of cohesion
+// only makes them smaller. Walton and Braun's law unloads from the overlap.
+TEST(Scale, SlopesOfTheForce) {
+    scene::Scene s = two_materials();
+    for (int normal = 0; normal < laws::normal_laws; ++normal) {
+        s.md.normal = static_cast<NormalLaw>(normal);
+        const Coefficients c = entry(s, 0, 1);
+        md::with_normal_law(normal, [&]<class Law>(md::Type<Law>) {
+            const double radius = 0.005, overlap = 1e-5, h = 1e-6 * overlap, v = 1e-6;
+            double memory[2] = {};
+            const auto force = [&](double xi, double rate) {
+                return laws::normal_force<Law>(xi, rate, c, radius, memory).force;
+            };
+            const double at = force(overlap, 0), slope = (at - force(overlap - h, 0)) / h;
+            const double stiffness = md::LawTraits<Law>::stiffness(c, radius, overlap);
+            const double damping = md::LawTraits<Law>::damping(c, radius, overlap);
+            if (s.md.normal == NormalLaw::cohesive_viscoelastic)
+                EXPECT_LT(slope, stiffness);
+            else
+                EXPECT_NEAR(slope, stiffness, 1e-5 * stiffness) << normal;
+            EXPECT_NEAR((force(overlap, v) - force(overlap, 0)) / v, damping, 1e-5 * damping + 1e-6)
+                << normal;
+        });
+    }
+}
+
 TEST(TimeStep, ResolvesUnloading) {
     scene::Scene s = empty_scene();
     s.md.normal = NormalLaw::walton_braun;
@@ -191,6 +221,19 @@ TEST(TimeStep, ResolvesRollingFriction) {
     const double inertia = 0.5 * 0.4 * 1e-3 * 1e-4;
     EXPECT_NEAR(d.critical_dt, 0.30 * inertia, 1e-15 * inertia); // Gear, 5 values
     EXPECT_NEAR(d.recommended_dt, 0.25 * 0.30 * inertia, 1e-15 * inertia);
+}
+
+// A fiftieth of pi sqrt(J_eff/k_r).
+TEST(TimeStep, ResolvesSpringsAgainstRolling) {
+    scene::Scene s = empty_scene();
+    s.md.tangential = scene::TangentialLaw::cundall_strack;
+    s.md.inertia = scene::Inertia::sphere;
+    s.materials[0].stiffness = 1;
+    s.materials[0].rolling_friction = 0.1;
+    s.materials[0].rolling_stiffness = 1;
+    const auto grains = {grain(0, {}, {}, 0.01, 1e-3)};
+    const md::Derived d = md::derive(s, md::analyse(s, grains));
+    EXPECT_NEAR(d.recommended_dt, std::numbers::pi / 50 * std::sqrt(0.5 * 0.4 * 1e-3 * 1e-4), 1e-15);
 }
 
 // Walton and Braun's rule of a spring applies to the tangential one as well: k_0 is its stiffness at F = 0.

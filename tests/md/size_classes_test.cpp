@@ -21,8 +21,8 @@ TEST(SizeClasses, AreOctavesOfTheSmallestRadius) {
         return md::size_classes(radii.size(), [&](std::size_t i) { return radii[i]; });
     };
     EXPECT_TRUE(classes({}).empty());
-    ASSERT_EQ(classes({1, 2.9}).size(), 1U); // within `wide_ratio`
-    EXPECT_EQ(classes({1, 2.9})[0].largest, 2.9);
+    ASSERT_EQ(classes({1, 1.9}).size(), 1U); // within `wide_ratio`
+    EXPECT_EQ(classes({1, 1.9})[0].largest, 1.9);
     const auto wide = classes({100, 1.5, 1, 2, 64, 3.9, 127});
     ASSERT_EQ(wide.size(), 3U); // [1, 2), [2, 4), [64, 128); those between are empty
     EXPECT_EQ(wide[0].largest, 1.5);
@@ -33,6 +33,19 @@ TEST(SizeClasses, AreOctavesOfTheSmallestRadius) {
     EXPECT_EQ(md::class_of(wide, 1.5), 0U);
     EXPECT_EQ(md::class_of(wide, 2), 1U);
     EXPECT_EQ(md::class_of(wide, 100), 2U);
+}
+
+// A few large grains among few others: one grid serves all, and several would cost more.
+TEST(SizeClasses, AreUsedWhereTheyPay) {
+    scene::Scene s = test::lattice_scene(20, 20);
+    std::vector<scene::GrainState> grains = test::lattice_grains(20, 20);
+    grains[0].radius = 2.5; // its cell would hold 25/4 grains or so
+    EXPECT_EQ(md::analyse(s, grains).sizes.size(), 1U);
+    grains[0].radius = 10;
+    const md::Needs needs = md::analyse(s, grains);
+    ASSERT_EQ(needs.sizes.size(), 2U);
+    EXPECT_EQ(needs.sizes[0].grains, 399U);
+    EXPECT_EQ(needs.sizes[1].largest, 10);
 }
 
 namespace {
