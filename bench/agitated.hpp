@@ -11,6 +11,10 @@
 
 namespace sandlane::bench {
 
+// What a scene does without, computed all the same: spins without friction, memory without springs that pull,
+// equal radii and materials looked up, discs as spheres that stay in a plane.
+enum class Spare { nothing, rotation, memory, radii, materials, space };
+
 struct Setup {
     std::size_t grains = 10000;
     double packing_fraction = 0.82;
@@ -22,7 +26,16 @@ struct Setup {
     scene::Integrator integrator = scene::Integrator::gear5;
     bool springs = false;       // friction of Cundall and Strack
     bool two_materials = false; // of the same coefficients
+    Spare spare = Spare::nothing;
+    bool half_empty = false; // 2D: the upper half of the box holds nothing
+    bool large = false;      // a few grains that are `large_radius` times as large as the others
+    bool one_grid = false;   // and link cells that know nothing of it
 };
+
+// Of the few large grains, in radii of the others.
+inline double large_radius(const Setup& setup) {
+    return setup.dimension == 3 ? 20 : 100;
+}
 
 // Below the packing fraction of a jammed packing there is no damping, above it strong damping brings the
 // start to rest. Discs: 0.01 touching neighbours per grain at 0.2, about one at 0.82, between four and five
@@ -48,7 +61,8 @@ inline scene::Scene agitated_scene(const Setup& setup) {
         s.md.inertia = scene::Inertia::sphere;
     } else {
         const double spacing = std::sqrt(2 * std::numbers::pi / (std::sqrt(3.0) * setup.packing_fraction));
-        s.domain.upper = {side * spacing, side * spacing * std::sqrt(3.0) / 2, 0};
+        const double height = side * spacing * std::sqrt(3.0) / 2;
+        s.domain.upper = {side * spacing, setup.half_empty ? 2 * height : height, 0};
         s.md.body = scene::Body::disc;
     }
     s.domain.periodic = {true, true, setup.dimension == 3};
@@ -93,17 +107,39 @@ inline Vec lattice_place(const Setup& setup, const scene::Scene& s, std::int64_t
     return {shaken(column, 0), shaken(row, 1), shaken(static_cast<double>(n / (side * side)), 2)};
 }
 
+// Two, far from each other, at rest at the start.
+inline void add_large_grains(const Setup& setup, const scene::Scene& s,
+                             std::vector<scene::GrainState>& grains) {
+    if (!setup.large) return;
+    for (const double at : {0.25, 0.75}) {
+        scene::GrainState g;
+        g.id = static_cast<std::int64_t>(grains.size());
+        g.radius = large_radius(setup);
+        g.mass = g.radius * g.radius;
+        g.position = at * (s.domain.upper - s.domain.lower);
+        grains.push_back(g);
+    }
+}
+inline bool meets_large_grain(const Setup& setup, const std::vector<scene::GrainState>& grains,
+                              const scene::GrainState& g) {
+    return setup.large && (norm(g.position - grains[0].position) < grains[0].radius + g.radius ||
+                           norm(g.position - grains[1].position) < grains[1].radius + g.radius);
+}
+
 inline std::vector<scene::GrainState> agitated_grains(const Setup& setup, const scene::Scene& s) {
     std::vector<scene::GrainState> grains;
     const std::int64_t side = side_of(setup);
     const Random radius(1, Stream::radius), velocity(1, Stream::velocity);
-    for (std::int64_t n = 0; n < side * side * (setup.dimension == 3 ? side : 1); ++n) {
+    const std::int64_t layers = setup.dimension == 3 ? side : 1;
+    add_large_grains(setup, s, grains);
+    for (std::int64_t n = 0; n < side * side * layers; ++n) {
         const auto counter = static_cast<std::uint64_t>(n);
         scene::GrainState g;
-        g.id = n;
+        g.id = static_cast<std::int64_t>(grains.size());
         g.radius = setup.equal_radii ? 1.0 : 0.9 + 0.2 * radius.uniform(counter);
         g.mass = g.radius * g.radius;
         g.position = lattice_place(setup, s, n);
+        if (meets_large_grain(setup, grains, g)) continue;
         const auto [vx, vy] = velocity.normal2(counter);
         g.velocity = {0.5 * vx, 0.5 * vy, 0};
         g.material = setup.two_materials ? static_cast<int>(n % 2) : 0;
@@ -136,8 +172,19 @@ inline std::vector<scene::GrainState> later_grains(const md::Simulation& simulat
 
 inline md::Simulation make(const Setup& setup, const std::vector<scene::GrainState>& grains, simd::Isa isa,
                            int threads) {
-    const scene::Scene s = agitated_scene(setup);
-    const md::Needs needs = md::analyse(s, grains);
+    scene::Scene s = agitated_scene(setup);
+    if (setup.spare == Spare::memory) s.md.tangential = scene::TangentialLaw::cundall_strack;
+    if (setup.spare == Spare::space) {
+        s.domain.dimension = 3;
+        s.domain.lower.z = -3;
+        s.domain.upper.z = 3;
+    }
+    md::Needs needs = md::analyse(s, grains);
+    if (setup.one_grid) needs.sizes.clear();
+    needs.spinning = needs.spinning || setup.spare == Spare::rotation;
+    needs.friction = needs.friction || setup.spare == Spare::memory;
+    needs.many_radii = needs.many_radii || setup.spare == Spare::radii;
+    needs.many_materials = needs.many_materials || setup.spare == Spare::materials;
     return {s, grains, needs, md::make_plan(s, needs, md::derive(s, needs), isa, {threads, "benchmark"})};
 }
 

@@ -27,12 +27,16 @@ struct Case {
 };
 
 std::string law_name(const bench::Setup& s) {
-    return fmt::format("{}{}{}{}{}", s.normal == scene::NormalLaw::viscoelastic ? "hertz" : "linear",
+    static const char* spares[] = {
+        "", "+spare_rotation", "+spare_memory", "+spare_radii", "+spare_materials", "+spare_space"};
+    return fmt::format("{}{}{}{}{}{}{}{}{}", s.normal == scene::NormalLaw::viscoelastic ? "hertz" : "linear",
                        s.springs    ? "+springs"
                        : s.friction ? "+friction"
                                     : "",
                        s.equal_radii ? "+equal" : "", s.two_materials ? "+two" : "",
-                       s.integrator == scene::Integrator::velocity_verlet ? "+vv" : "");
+                       s.integrator == scene::Integrator::velocity_verlet ? "+vv" : "",
+                       spares[static_cast<int>(s.spare)], s.half_empty ? "+half_empty" : "",
+                       s.large ? "+large" : "", s.one_grid ? "+one_grid" : "");
 }
 
 std::string name_of(const Case& c) {
@@ -47,6 +51,8 @@ const std::vector<scene::GrainState>& agitated(bench::Setup setup) {
     static std::map<std::string, std::vector<scene::GrainState>> known;
     constexpr std::size_t large = 300000; // grains: of these only the last state is kept
     setup.integrator = scene::Integrator::gear5;
+    setup.one_grid = false;
+    setup.spare = bench::Spare::nothing;
     const std::string key =
         fmt::format("{}/{}/{}/{}", setup.dimension, law_name(setup), setup.packing_fraction, setup.grains);
     const auto found = known.find(key);
@@ -143,17 +149,155 @@ void add_space() {
                             }
 }
 
-// What `tools/bench skips` compares besides.
+// What `tools/bench skips` compares: the same state with and without what it has no need of.
 void add_skips() {
-    bench::Setup base{10000, 0.82, 2, scene::NormalLaw::viscoelastic, true};
-    for (const auto method : {NeighbourMethod::lattice_half, NeighbourMethod::verlet}) {
-        base.neighbours = method;
-        bench::Setup equal = base, two = base, springs = base;
-        equal.equal_radii = two.two_materials = springs.springs = true;
-        add({equal, simd::available_isas().back()});
-        add({two, simd::available_isas().back()});
-        if (method == NeighbourMethod::verlet) add({springs, simd::available_isas().back()});
+    using bench::Spare;
+    const bench::Setup base{10000, 0.82, 2, scene::NormalLaw::viscoelastic, true};
+    const auto add_spare = [](bench::Setup setup, NeighbourMethod method, Spare spare) {
+        setup.neighbours = method;
+        setup.spare = spare;
+        add({setup, simd::available_isas().back()});
+    };
+    bench::Setup smooth = base, equal = base, half_empty = base, twice = base;
+    smooth.friction = false;
+    equal.equal_radii = true;
+    half_empty.half_empty = true;
+    twice.grains = 2 * base.grains;
+    for (const auto method : {NeighbourMethod::verlet, NeighbourMethod::lattice_half}) {
+        add_spare(smooth, method, Spare::rotation);
+        add_spare(base, method, Spare::materials);
     }
+    add_spare(smooth, NeighbourMethod::verlet, Spare::memory);
+    add_spare(equal, NeighbourMethod::lattice_half, Spare::radii);
+    add_spare(equal, NeighbourMethod::lattice_half, Spare::nothing);
+    add_spare(base, NeighbourMethod::verlet, Spare::space);
+    add_spare(half_empty, NeighbourMethod::lattice_half, Spare::nothing);
+    add_spare(twice, NeighbourMethod::lattice_half, Spare::nothing);
+}
+
+// A few large grains among many small ones, with a grid of cells for each and with one for all.
+void add_sizes() {
+    for (const int dimension : {2, 3})
+        for (const auto method : {NeighbourMethod::link_cells, NeighbourMethod::verlet})
+            for (const bool one_grid : {false, true}) {
+                bench::Setup setup{40000, dimension == 3 ? 0.3 : 0.5, dimension};
+                setup.neighbours = method;
+                setup.large = true;
+                setup.one_grid = one_grid;
+                add({setup, simd::available_isas().back()});
+            }
+}
+
+// ---- what is not computed, on against off
+
+// Discs in a round pile on the floor of a wide box with a ceiling of many pieces that they never reach.
+scene::Scene walled_scene() {
+    scene::Scene s = bench::agitated_scene({});
+    s.domain.periodic = {};
+    for (const double y : {-1.0, s.domain.upper.y + 1}) {
+        scene::Wall w;
+        w.kind = scene::WallKind::polyline;
+        for (int n = 0; n <= 64; ++n) w.points.push_back({s.domain.upper.x * n / 64.0, y, 0});
+        s.walls.push_back(w);
+    }
+    s.domain.lower.y = -2;
+    s.domain.upper.y += 2;
+    s.domain.outside = scene::Outside::remove;
+    return s;
+}
+
+// Forces of walls alone: of those near each grain, or of all.
+void walls(benchmark::State& state, bool near_only) {
+    const scene::Scene s = walled_scene();
+    const auto grains = bench::agitated_grains({}, bench::agitated_scene({}));
+    const md::Needs needs = md::analyse(s, grains);
+    const md::Plan plan =
+        md::make_plan(s, needs, md::derive(s, needs), simd::available_isas().back(), {1, "benchmark"});
+    const md::Simulation simulation(s, grains, needs, plan);
+    const md::State& now = simulation.state();
+    md::Walls walls(s, plan, needs);
+    const std::vector<double> coefficients = md::pair_table(s);
+    std::vector<double> force(now.force_stride() * md::tile_size);
+    const Stopwatch clock;
+    std::int64_t steps = 0;
+    for (auto _ : state) {
+        walls.account(0);
+        walls.update(now, now.record.data());
+        for (std::size_t tile = 0; tile < now.tiles(); ++tile)
+            benchmark::DoNotOptimize(
+                walls.add_forces({now.record.data(), now.material.data(), coefficients.data(), 1,
+                                  force.data(), tile * md::tile_size, nullptr, nullptr, 0, plan.dt,
+                                  1 / plan.dt, nullptr, static_cast<int>(now.force_stride())},
+                                 tile, now.size(), near_only));
+        ++steps;
+    }
+    state.counters["particle_steps_per_second"] =
+        static_cast<double>(steps) * static_cast<double>(now.size()) / clock.seconds();
+}
+
+// Steps with outputs that are never due, and with a row of the log and a snapshot in every step.
+void outputs(benchmark::State& state, std::int64_t every) {
+    const bench::Setup setup{
+        10000, 0.82, 2, scene::NormalLaw::viscoelastic, true, false, NeighbourMethod::verlet};
+    md::Simulation simulation = bench::make(setup, agitated(setup), simd::available_isas().back(), 1);
+    simulation.run(64);
+    std::int64_t steps = 0;
+    const Stopwatch clock;
+    for (auto _ : state) {
+        for (std::int64_t n = 0; n < 64; n += every) {
+            simulation.run(every);
+            if (every > 1) continue;
+            benchmark::DoNotOptimize(simulation.observe());
+            benchmark::DoNotOptimize(simulation.snapshot());
+        }
+        steps += 64;
+    }
+    state.counters["particle_steps_per_second"] =
+        static_cast<double>(steps) * static_cast<double>(simulation.state().size()) / clock.seconds();
+}
+
+// Two compartments: a gas in the upper one, grains at rest that do not touch in the lower one.
+void at_rest(benchmark::State& state, bool freeze) {
+    const bench::Setup setup{
+        20000, 0.5, 2, scene::NormalLaw::linear_dashpot, true, false, NeighbourMethod::verlet};
+    scene::Scene s = bench::agitated_scene(setup);
+    auto grains = bench::agitated_grains(setup, s);
+    const double row = s.domain.upper.y / static_cast<double>(bench::side_of(setup)),
+                 middle = row * static_cast<double>(bench::side_of(setup) / 2);
+    for (scene::GrainState& g : grains)
+        if (g.position.y < middle) g.velocity = {};
+    for (const double y : {0.0, middle}) {
+        scene::Wall w;
+        w.kind = scene::WallKind::segment;
+        w.points = {{-1, y, 0}, {s.domain.upper.x + 1, y, 0}};
+        s.walls.push_back(w);
+    }
+    s.md.freeze = freeze;
+    const md::Needs needs = md::analyse(s, grains);
+    md::Simulation simulation(
+        s, grains, needs,
+        md::make_plan(s, needs, md::derive(s, needs), simd::available_isas().back(), {1, "benchmark"}));
+    simulation.run(256);
+    std::int64_t steps = 0;
+    const Stopwatch clock;
+    for (auto _ : state) {
+        simulation.run(256);
+        steps += 256;
+    }
+    state.counters["particle_steps_per_second"] =
+        static_cast<double>(steps) * static_cast<double>(grains.size()) / clock.seconds();
+}
+
+void add_parts() {
+    const auto add_part = [](const char* name, auto body) {
+        benchmark::RegisterBenchmark(name, body)->Unit(benchmark::kMillisecond)->UseRealTime();
+    };
+    add_part("part/walls/all", [](benchmark::State& state) { walls(state, false); });
+    add_part("part/walls/near", [](benchmark::State& state) { walls(state, true); });
+    add_part("part/rest/computed", [](benchmark::State& state) { at_rest(state, false); });
+    add_part("part/rest/frozen", [](benchmark::State& state) { at_rest(state, true); });
+    add_part("part/outputs/always", [](benchmark::State& state) { outputs(state, 1); });
+    add_part("part/outputs/never", [](benchmark::State& state) { outputs(state, 64); });
 }
 
 // Takes --rounds=R out of the arguments.
@@ -179,6 +323,8 @@ int main(int argc, char** argv) {
         add_all();
         add_space();
         add_skips();
+        add_sizes();
+        add_parts();
     }
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

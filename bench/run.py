@@ -10,8 +10,8 @@ import pathlib
 import sys
 
 import measure
+import scene_runs
 import tables
-
 
 
 skipped = 77  # exit code, known to ctest
@@ -72,20 +72,52 @@ def table(options):
 
 
 def skips(options):
-    """Each part of the physics against the same scene without it, in turn."""
+    """The same state with and without computing what it has no need of, in turn."""
     isa = measure.info()[0][-1]
-    full = {method: case(method, "hertz+friction", isa=isa) for method in ("verlet", "half")}
-    rows = [("rotation and friction", full[m], case(m, "hertz", isa=isa)) for m in full]
-    rows += [("many radii", full[m], case(m, "hertz+friction+equal", isa=isa)) for m in full]
-    rows += [("many materials", case(m, "hertz+friction+two", isa=isa), full[m]) for m in full]
-    rows += [("contact memory", case("verlet", "hertz+springs", isa=isa), full["verlet"])]
-    rows += [("higher derivatives", full["verlet"], case("verlet", "hertz+friction+vv", isa=isa))]
-    found = measure.steps(sorted({c for row in rows for c in row[1:]}), options.rounds, options.seconds, "skips")
-    print(f"{'skipped':<24}{'method':<8}{'with':>10}{'without':>10}{'gain':>7}")
-    for what, with_it, without in rows:
+    smooth, rough, equal = "hertz", "hertz+friction", "hertz+friction+equal"
+
+    def pair(what, method, law, spare):
+        return what, case(method, f"{law}+spare_{spare}", isa=isa), case(method, law, isa=isa), 1
+
+    rows = [pair("rotation", m, smooth, "rotation") for m in ("verlet", "half")]
+    rows += [pair("memory of contacts", "verlet", smooth, "memory"), pair("many radii", "half", equal, "radii")]
+    rows += [pair("many materials", m, rough, "materials") for m in ("verlet", "half")]
+    rows += [pair("third dimension", "verlet", rough, "space")]
+    # As many sites, twice as many grains: rates count grains.
+    rows += [("empty sites and rows", case("half", rough, n=20000, isa=isa),
+              case("half", f"{rough}+half_empty", isa=isa), 2)]
+    rows += [("walls out of reach *", "part/walls/all", "part/walls/near", 1),
+             ("tiles at rest", "part/rest/computed", "part/rest/frozen", 1),
+             ("outputs not due", "part/outputs/always", "part/outputs/never", 1)]
+    found = measure.steps(sorted({c for row in rows for c in row[1:3]}), options.rounds, options.seconds, "skips")
+    print(f"{'skipped':<24}{'method':<9}{'computed':>12}{'skipped':>12}{'gain':>9}")
+    for what, with_it, without, sites in rows:
         a, b = found[with_it], found[without]
-        print(f"{what:<24}{with_it.split('/')[1]:<8}{measure.median(a) / 1e6:>8.1f} M"
-              f"{measure.median(b) / 1e6:>8.1f} M{measure.ratio(b, a):>7.2f}")
+        print(f"{what:<24}{with_it.split('/')[1]:<9}{measure.median(a) / sites / 1e6:>10.1f} M"
+              f"{measure.median(b) / 1e6:>10.1f} M{sites * measure.ratio(b, a):>9.2f}")
+    print("* their part of a step alone")
+
+
+def sizes(options):
+    """A few large grains among many small ones: a grid of cells for each class of radii, or one for all."""
+    isa = measure.info()[0][-1]
+    rows = [(space, method, case(method, f"linear+friction+large{one}", phi, 40000, isa).replace("md/", space))
+            for space, phi in (("md/", 0.5), ("md3/", 0.3)) for method in ("verlet", "cells") for one in ("", "+one_grid")]
+    found = measure.steps([name for _, _, name in rows], options.rounds, options.seconds, "sizes")
+    print(f"{'radii':<8}{'method':<8}{'one grid':>10}{'classes':>10}{'gain':>7}")
+    for (space, method, classes), (_, _, one) in zip(rows[::2], rows[1::2]):
+        print(f"{'1:100' if space == 'md/' else '1:20':<8}{method:<8}{measure.median(found[one]) / 1e6:>8.2f} M"
+              f"{measure.median(found[classes]) / 1e6:>8.2f} M{measure.ratio(found[classes], found[one]):>7.1f}")
+
+
+def scenes(options):
+    """Every shipped scene, the same steps from its start: `auto` against every method of finding pairs."""
+    names = options.scene or sorted(p.stem for p in (measure.root / "data/scenes").glob("*.toml"))
+    print(f"{'scene':<22}{'steps':>8}" + "".join(f"{m:>14}" for m in scene_runs.methods) + f"{'loss of auto':>14}")
+    for name in names:
+        row = scene_runs.compare(name, options.seconds, options.rounds)
+        cells = "".join(f"{row.seconds[m]:>12.3f} s" if m in row.seconds else f"{'-':>14}" for m in scene_runs.methods)
+        print(f"{name:<22}{row.steps:>8}{cells}{row.loss:>13.1%}", flush=True)
 
 
 def peers(options):
@@ -132,6 +164,13 @@ def main():
     sub = command("skips", skips, "what a scene gains from physics that it does without")
     sub.add_argument("--rounds", type=int, default=5, help="times that all cases run in turn")
     sub.add_argument("--seconds", type=float, default=0.2, help="least time of one run")
+    sub = command("sizes", sizes, "grids of cells for classes of radii against one for all")
+    sub.add_argument("--rounds", type=int, default=3, help="times that all cases run in turn")
+    sub.add_argument("--seconds", type=float, default=0.2, help="least time of one run")
+    sub = command("scenes", scenes, "shipped scenes: what `auto` loses against the best method of finding pairs")
+    sub.add_argument("scene", nargs="*", help="names of scenes; all if none is given")
+    sub.add_argument("--rounds", type=int, default=3, help="times that all methods run in turn")
+    sub.add_argument("--seconds", type=float, default=1.0, help="aimed time of one run")
     sub = command("peers", peers, "the same discs in LAMMPS, physics compared, rates side by side")
     sub.add_argument("--grains", type=int, nargs="+", default=[1000, 10000, 100000])
     sub.add_argument("--phi", type=float, nargs="+", default=[0.2, 0.5, 0.82])
