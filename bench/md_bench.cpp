@@ -133,7 +133,7 @@ void add_all() {
 
 // Spheres: a packing at rest and a gas, by lists.
 void add_space() {
-    for (const std::size_t n : {4096U, 32768U, 262144U, 1000000U})
+    for (const std::size_t n : {512U, 4096U, 32768U, 262144U, 1000000U})
         for (const double phi : {0.3, 0.64})
             for (const auto normal : {scene::NormalLaw::linear_dashpot, scene::NormalLaw::viscoelastic})
                 for (const int friction : {0, 1, 2})

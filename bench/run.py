@@ -130,6 +130,12 @@ def peers(options):
     return lammps.main(options, skipped)
 
 
+def spheres(options):
+    sys.path.append(str(pathlib.Path(__file__).parent / "peers"))
+    import spheres as race
+    return race.main(options)
+
+
 def compare(options):
     old, new = ({}, {})
     for path, records in ((options.old, old), (options.new, new)):
@@ -179,6 +185,15 @@ def main():
     sub.add_argument("--seconds", type=float, default=1.0, help="aimed time of one run")
     sub.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
                      help="for sandlane, for example md.neighbours=verlet or md.integrator=velocity-verlet")
+    sub = command("spheres", spheres, "a bed of spheres in sandlane, LAMMPS, LIGGGHTS and YADE, whichever are installed")
+    sub.add_argument("--grains", type=int, nargs="+", default=[31360])
+    sub.add_argument("--law", nargs="+", default=["linear", "hertz"], choices=["linear", "hertz"])
+    sub.add_argument("--case", nargs="+", default=["bed"], choices=["bed", "chute", "column"])
+    sub.add_argument("--sizes", action="store_true", help="radii within 20 %% instead of equal ones")
+    sub.add_argument("--cores", type=int, nargs="+", default=[1])
+    sub.add_argument("--only", nargs="+", help="programs, sandlane among them")
+    sub.add_argument("--rounds", type=int, default=3, help="times that all programs run in turn")
+    sub.add_argument("--seconds", type=float, default=2.0, help="aimed time of one run")
     sub = command("compare", compare, "two result files (build/bench/*.json) of the same cases")
     sub.add_argument("old")
     sub.add_argument("new")

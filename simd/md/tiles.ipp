@@ -8,7 +8,7 @@
 namespace sandlane::simd {
 
 inline constexpr int tile_chunk = 128; // pairs
-inline constexpr int look_ahead = 64;  // pairs: distance of the prefetch of partners' records
+inline constexpr int look_ahead = 64;  // pairs: distance of the prefetch of partners' records and of memory
 
 // The contacts of one chunk, packed; room for the full store of the last eight.
 struct Contacts {
@@ -45,6 +45,12 @@ SANDLANE_INLINE void begin_contacts(const TileList& list, std::int32_t pair, uns
     touched = static_cast<std::uint8_t>(touching);
 }
 
+// Rows of eight pairs; a prefetch beyond the end does no harm.
+template <int row> SANDLANE_INLINE void prefetch_memory(const TileList& list, std::int32_t pair) {
+    for (int d = 0; d < width * row; d += 8)
+        __builtin_prefetch(list.memory + std::ptrdiff_t{pair} * row + d, 1);
+}
+
 template <int dimension, bool spin>
 SANDLANE_INLINE void prefetch_grain(const PairView& view, std::int32_t j) {
     __builtin_prefetch(view.records + std::ptrdiff_t{j} * record_fields);
@@ -75,6 +81,7 @@ __attribute__((noinline)) void pack_contacts(const PairView& view, const TileLis
         if (j + n + look_ahead + width <= end)
             for (int l = 0; l < width; ++l)
                 prefetch_grain<dimension, reads.spin>(view, j[n + look_ahead + l]);
+        if constexpr (reads.memory_row > 0) prefetch_memory<reads.memory_row>(list, first + n + look_ahead);
         R field[record_fields];
         CombinePairs<Arch, dimension>::apply(view.records, i + n, j + n, field);
         const R square = separate<Arch, dimension, images>(view, field),

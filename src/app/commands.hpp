@@ -36,12 +36,17 @@ struct CompareOptions {
     double tolerance = 0;          // largest relative difference allowed; 0: bit for bit
 };
 
+// Of a picture; empty or 0: what the scene says.
+struct Look {
+    std::string colour;
+    int width = 0;            // pixels
+    std::vector<double> view; // 3D: direction to the viewer
+};
+
 struct RenderOptions {
     std::filesystem::path from; // checkpoint or scene
     std::filesystem::path png;
-    std::string colour;       // empty: what the scene says
-    int width = 0;            // pixels; 0: what the scene says
-    std::vector<double> view; // 3D: direction to the viewer; empty: what the scene says
+    Look look;
 };
 
 struct ConvertOptions {

@@ -1,11 +1,12 @@
 // `sandlane convert` and `sandlane render`: between scenes, checkpoints, the book's 25-column files and
 // pictures.
+#include "app/md_engine.hpp"
 #include "app/prepare.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/progress.hpp"
-#include "output/picture.hpp"
 #include "scene/book_format.hpp"
+#include "scene/reader.hpp"
 #include "scene/schema.hpp"
 
 #include <algorithm>
@@ -22,10 +23,10 @@ bool is_toml(const fs::path& path) {
 }
 
 // As it stood in a checkpoint, or at the start of a scene.
-md::Simulation load_state(const fs::path& path) {
+std::unique_ptr<Engine> load_state(const fs::path& path) {
     const Common common;
-    if (is_toml(path)) return prepare(scene::read_scene(path), common).simulation();
-    return prepare_checkpoint(path, common).simulation();
+    if (is_toml(path)) return prepare(scene::read_scene(path), common)->start();
+    return prepare_checkpoint(path, common).engine();
 }
 
 // The storage order of a run follows the places of the grains.
@@ -74,6 +75,12 @@ void set_material(scene::BookRecord& r, const scene::Material& m) {
 
 // The format knows one normal law, and walls made of grains only.
 void check_suits_book(const scene::Scene& s, const fs::path& from) {
+    if (s.method != scene::Engine::md)
+        fail(
+            Exit::invalid_input,
+            "convert: {}: method = \"{}\" has no place in the book's format, which knows grains of molecular "
+            "dynamics only",
+            from.string(), scene::engine_choices()[static_cast<std::size_t>(s.method)]);
     if (s.domain.dimension != 2)
         fail(Exit::invalid_input,
              "convert: {}: is three-dimensional, and the book's format knows two dimensions only. Convert to "
@@ -148,18 +155,10 @@ std::string scene_text_of_book(const ConvertOptions& options) {
 }
 
 std::string book_text(const ConvertOptions& options) {
-    const md::Simulation simulation = load_state(options.from);
-    check_suits_book(simulation.scene(), options.from);
-    const scene::Book book = to_book(simulation);
+    const std::unique_ptr<Engine> engine = load_state(options.from);
+    check_suits_book(engine->scene(), options.from);
+    const scene::Book book = to_book(dynamic_cast<const MdEngine&>(*engine).simulation());
     return options.snapshot ? scene::write_book_frame(book) : scene::write_book(book);
-}
-
-output::Camera camera_of(scene::Scene scene, const RenderOptions& options) {
-    if (scene.domain.dimension != 3)
-        fail(Exit::invalid_input, "render: {}: --view goes with three-dimensional scenes only",
-             options.from.string());
-    scene.output.view = {options.view[0], options.view[1], options.view[2]};
-    return output::camera_of(scene);
 }
 
 } // namespace
@@ -178,21 +177,20 @@ int convert(const ConvertOptions& options) {
              "convert: {}: --snapshot goes with book files; a target that ends in .toml is a scene",
              options.to.string());
     const std::string text = from_book             ? scene_text_of_book(options)
-                             : is_toml(options.to) ? scene::write_scene(load_state(options.from).scene())
+                             : is_toml(options.to) ? scene::write_scene(load_state(options.from)->scene())
                                                    : book_text(options);
     write_file_atomically(options.to, text);
     return 0;
 }
 
 int render(const RenderOptions& options) {
-    const md::Simulation simulation = load_state(options.from);
-    const scene::Choices& colours = scene::colour_choices();
-    const auto colour = std::find(colours.begin(), colours.end(), options.colour);
-    output::PictureStyle style = output::picture_style(simulation.scene());
-    if (!options.view.empty()) style.camera = camera_of(simulation.scene(), options);
-    if (options.width > 0) style.width = options.width;
-    if (colour != colours.end()) style.colour = static_cast<scene::Colour>(colour - colours.begin());
-    output::write_picture(options.png, simulation.snapshot(), style);
+    const std::unique_ptr<Engine> engine = load_state(options.from);
+    try {
+        engine->draw(options.png, options.look);
+    } catch (const Error& e) {
+        if (e.code() != Exit::invalid_input) throw;
+        fail(e.code(), "render: {}: {}", options.from.string(), e.what());
+    }
     return 0;
 }
 

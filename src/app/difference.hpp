@@ -1,8 +1,6 @@
 // Comparison of two results quantity by quantity: largest absolute, relative and ULP difference, and where.
 #pragma once
 
-#include "md/simulation.hpp"
-
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,7 +11,7 @@ struct Difference {
     std::string quantity, unit;
     double absolute = 0, relative = 0;
     std::uint64_t ulps = 0;
-    std::int64_t id = -1; // grain with the largest absolute difference
+    std::int64_t id = -1; // grain or site with the largest absolute difference
 };
 
 [[nodiscard]] std::uint64_t ulp_distance(double a, double b);
@@ -23,15 +21,8 @@ struct Difference {
                                     const std::vector<std::int64_t>& ids, const std::vector<double>& a,
                                     const std::vector<double>& b);
 
-[[nodiscard]] std::vector<Difference> compare_snapshots(const analysis::Snapshot& a,
-                                                        const analysis::Snapshot& b);
-
-// Forces and torques of the present state by the plan's kernels against the scalar reference of the same
-// method.
-[[nodiscard]] std::vector<Difference> compare_forces(md::Simulation& simulation, simd::Isa first,
-                                                     simd::Isa second);
-
-[[nodiscard]] std::string difference_table(const std::vector<Difference>& differences);
+[[nodiscard]] std::string difference_table(const std::vector<Difference>& differences,
+                                           const std::string& thing = "grain");
 [[nodiscard]] double worst_relative(const std::vector<Difference>& differences);
 
 } // namespace sandlane::app

@@ -100,13 +100,14 @@ void add_conversion(CLI::App& cli, Options& o, Job& job) {
     render->add_option("png", o.render.png, "Picture to write")->required();
     const scene::Choices& colours = scene::colour_choices();
     render
-        ->add_option("--colour", o.render.colour,
+        ->add_option("--colour", o.render.look.colour,
                      "What the colour of a grain shows (default: as in the scene)")
         ->check(CLI::IsMember(std::vector<std::string>(colours.begin(), colours.end())));
-    render->add_option("--width", o.render.width, "Pixels (default: as in the scene)")
+    render->add_option("--width", o.render.look.width, "Pixels (default: as in the scene)")
         ->check(CLI::Range(64, 16384));
     render
-        ->add_option("--view", o.render.view, "3D: direction to the viewer, x,y,z (default: as in the scene)")
+        ->add_option("--view", o.render.look.view,
+                     "3D: direction to the viewer, x,y,z (default: as in the scene)")
         ->delimiter(',')
         ->expected(3);
     render->callback([&] { job = [&] { return app::render(o.render); }; });

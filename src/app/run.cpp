@@ -1,7 +1,6 @@
 // `sandlane run`: a production run with its outputs, checkpoints and summary.
 #include "app/run_outputs.hpp"
 
-#include "app/difference.hpp"
 #include "app/prepare.hpp"
 #include "app/summary.hpp"
 #include "core/error.hpp"
@@ -58,20 +57,21 @@ std::string latest_checkpoint(const fs::path& folder) {
                             : "Last good checkpoint: " + checkpoint);
 }
 
-// The loop over time steps, in slices that end where an output is due or a clock must be read.
+// The loop over steps, in slices that end where an output is due or a clock must be read.
 class Loop {
 public:
-    Loop(md::Simulation& sim, RunOutputs& outputs, const Common& common, const RunOptions& options)
-        : sim_(sim), outputs_(outputs), last_(last_step(sim, options)), walltime_(options.walltime),
-          check_every_(whole_strides(sim, options.check_every)), progress_(sim.step(), last_, common.quiet) {}
+    Loop(Engine& engine, RunOutputs& outputs, const Common& common, const RunOptions& options)
+        : engine_(engine), outputs_(outputs), last_(last_step(engine, options)), walltime_(options.walltime),
+          check_every_(whole_strides(engine, options.check_every)),
+          progress_(engine.step(), last_, common.quiet, engine.words().work, engine.words().time_unit) {}
 
     Status run(const Stopwatch& wall) {
-        while (sim_.step() < last_) {
+        while (engine_.step() < last_) {
             advance(next_stop());
-            outputs_.write_due(sim_, false);
-            if (check_every_ > 0 && sim_.step() % check_every_ == 0) compare_with_reference();
-            progress_.update(sim_.step(), sim_.time(), sim_.state().size());
-            if (sim_.step() >= last_) break;
+            outputs_.write_due(false);
+            if (check_every_ > 0 && engine_.step() % check_every_ == 0) compare_with_reference();
+            progress_.update(engine_.step(), engine_.time(), engine_.size());
+            if (engine_.step() >= last_ || engine_.finished()) break;
             if (stop_signal != 0) return Status::interrupted;
             if (walltime_ > 0 && wall.seconds() > walltime_) return Status::walltime;
         }
@@ -82,43 +82,41 @@ public:
     [[nodiscard]] double worst_difference() const { return worst_; }
 
 private:
-    static std::int64_t last_step(const md::Simulation& sim, const RunOptions& options) {
-        return options.steps >= 0 ? sim.step() + options.steps : std::max(sim.step(), sim.plan().steps);
+    static std::int64_t last_step(const Engine& engine, const RunOptions& options) {
+        return options.steps >= 0 ? engine.step() + options.steps : std::max(engine.step(), engine.steps());
     }
 
-    // Steps of every length end at multiples of the largest.
-    static std::int64_t whole_strides(const md::Simulation& sim, std::int64_t steps) {
-        const std::int64_t stride = sim.plan().largest_stride;
-        return (steps + stride - 1) / stride * stride;
+    static std::int64_t whole_strides(const Engine& engine, std::int64_t steps) {
+        return (steps + engine.stride() - 1) / engine.stride() * engine.stride();
     }
 
     [[nodiscard]] std::int64_t next_stop() const {
-        std::int64_t stop = std::min({last_, outputs_.next_due(sim_.step()), sim_.step() + slice_});
-        if (check_every_ > 0) stop = std::min(stop, (sim_.step() / check_every_ + 1) * check_every_);
+        std::int64_t stop = std::min({last_, outputs_.next_due(engine_.step()), engine_.step() + slice_});
+        if (check_every_ > 0) stop = std::min(stop, (engine_.step() / check_every_ + 1) * check_every_);
         return stop;
     }
 
     void advance(std::int64_t stop) {
-        const std::int64_t steps = stop - sim_.step(), before = sim_.taken();
+        const std::int64_t steps = stop - engine_.step(), before = engine_.taken();
         const Stopwatch clock;
-        sim_.run(steps);
+        engine_.run(steps);
         const double seconds = clock.seconds();
-        const std::int64_t taken = sim_.taken() - before;
         timing_.seconds += seconds;
+        const std::int64_t taken = engine_.taken() - before;
         timing_.steps += taken;
-        timing_.particle_steps += static_cast<double>(taken) * static_cast<double>(sim_.state().size());
+        timing_.work += static_cast<double>(taken) * static_cast<double>(engine_.size());
         if (seconds < 0.05 && steps == slice_) slice_ *= 2;
         if (seconds > 0.2 && slice_ > 1) slice_ /= 2;
     }
 
     void compare_with_reference() {
-        const double worst = worst_relative(compare_forces(sim_, sim_.plan().isa, simd::Isa::scalar));
+        const double worst = worst_relative(engine_.compare_kernels(engine_.isa(), simd::Isa::scalar));
         worst_ = std::max(worst_, worst);
         tell(fmt::format("check at step {}: worst relative difference to the scalar reference {:.3g}\n",
-                         sim_.step(), worst));
+                         engine_.step(), worst));
     }
 
-    md::Simulation& sim_;
+    Engine& engine_;
     RunOutputs& outputs_;
     std::int64_t last_;
     double walltime_; // s
@@ -130,8 +128,8 @@ private:
 };
 
 struct Start {
-    Prepared prepared;
-    md::Simulation simulation;
+    std::unique_ptr<Setup> setup;
+    std::unique_ptr<Engine> engine;
     fs::path folder;
     std::unique_ptr<output::Checkpoint> resumed; // null: from the beginning
     bool in_place = false;                       // goes on in the folder of the earlier run
@@ -140,15 +138,15 @@ struct Start {
 Start start_from_checkpoint(const Common& common, const RunOptions& options) {
     Restorable r = prepare_checkpoint(options.resume, common);
     const bool in_place = options.out.empty();
-    md::Simulation simulation = r.simulation();
-    return {std::move(r.prepared), std::move(simulation), in_place ? folder_of(options.resume) : options.out,
+    std::unique_ptr<Engine> engine = r.engine();
+    return {std::move(r.setup), std::move(engine), in_place ? folder_of(options.resume) : options.out,
             std::make_unique<output::Checkpoint>(std::move(r.checkpoint)), in_place};
 }
 
 Start start_from_scene(const Common& common, const RunOptions& options) {
-    Prepared prepared = prepare(common);
-    md::Simulation simulation = prepared.simulation();
-    return {std::move(prepared), std::move(simulation),
+    std::unique_ptr<Setup> setup = prepare(common);
+    std::unique_ptr<Engine> engine = setup->start();
+    return {std::move(setup), std::move(engine),
             options.out.empty() ? "results" / common.scene.stem() : options.out, nullptr, false};
 }
 
@@ -156,27 +154,28 @@ void report(const Summary& summary, const Common& common, const fs::path& folder
             const std::string& checkpoint) {
     if (common.json) fmt::print("{}\n", summary.json());
     if (common.quiet) return;
-    tell(fmt::format("{}: {} steps, {} grains, {:.3g} particle-steps/s, {}. Results: {}\n",
-                     status_name(summary.status), summary.loop.steps, summary.simulation.state().size(),
-                     summary.loop.rate(), clock_text(summary.wall_seconds), folder.string()));
+    const Words& words = summary.engine.words();
+    tell(fmt::format("{}: {} {}, {} {}, {:.3g} {}/s, {}. Results: {}\n", status_name(summary.status),
+                     summary.loop.steps, words.steps, summary.engine.size(), words.things,
+                     summary.loop.rate(), words.work, clock_text(summary.wall_seconds), folder.string()));
     if (summary.status != Status::finished)
         tell(fmt::format("Continue with: sandlane run --resume {}\n", checkpoint));
 }
 
 int execute(Start& start, const Common& common, const RunOptions& options, const Stopwatch& wall) {
-    md::Simulation& sim = start.simulation;
+    Engine& engine = *start.engine;
     const double wall_before = start.resumed ? start.resumed->wall_seconds : 0;
-    RunOutputs outputs(start.folder, sim, start.prepared.description(),
+    RunOutputs outputs(start.folder, engine, start.setup->description(),
                        start.in_place ? start.resumed.get() : nullptr);
     outputs.be_quiet(common.quiet);
     outputs.spent_before(wall_before);
     try {
-        if (!start.in_place) outputs.write_due(sim, true);
-        Loop loop(sim, outputs, common, options);
+        if (!start.in_place) outputs.write_due(true);
+        Loop loop(engine, outputs, common, options);
         const Status status = loop.run(wall);
-        const Summary summary{sim, status, loop.timing(), wall.seconds(), wall_before};
+        const Summary summary{engine, status, loop.timing(), wall.seconds(), wall_before};
         const std::string checkpoint =
-            outputs.finish(sim, status != Status::finished, summary.json(), loop.timing().rate());
+            outputs.finish(status != Status::finished, summary.json(), loop.timing().rate());
         if (!options.bench_json.empty()) write_file_atomically(options.bench_json, summary.benchmark_json());
         report(summary, common, start.folder, checkpoint);
         if (loop.worst_difference() > 1e-12) return static_cast<int>(Exit::comparison_failed);
@@ -195,7 +194,7 @@ int run(const Common& common, const RunOptions& options) {
     Start start =
         options.resume.empty() ? start_from_scene(common, options) : start_from_checkpoint(common, options);
     if (options.dry_run) {
-        print_plan(start.prepared, common.json);
+        print_plan(*start.setup, common.json);
         return 0;
     }
     catch_signals();

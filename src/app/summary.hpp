@@ -1,7 +1,7 @@
 // What a run says at its end.
 #pragma once
 
-#include "md/simulation.hpp"
+#include "app/engine.hpp"
 
 #include <cstdint>
 #include <string>
@@ -12,13 +12,13 @@ enum class Status { finished, interrupted, walltime };
 [[nodiscard]] const char* status_name(Status status);
 
 struct LoopTiming {
-    double seconds = 0, particle_steps = 0;
+    double seconds = 0, work = 0; // work: things times steps
     std::int64_t steps = 0;
-    [[nodiscard]] double rate() const { return seconds > 0 ? particle_steps / seconds : 0; } // per second
+    [[nodiscard]] double rate() const { return seconds > 0 ? work / seconds : 0; } // per second
 };
 
 struct Summary {
-    const md::Simulation& simulation;
+    const Engine& engine;
     Status status;
     LoopTiming loop;
     double wall_seconds = 0; // of this process so far

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <unistd.h>
 
@@ -20,16 +21,17 @@ std::string clock_text(double seconds) {
                      : fmt::format("{}:{:02}", minutes, rest);
 }
 
-Progress::Progress(std::int64_t first, std::int64_t total, bool quiet)
+Progress::Progress(std::int64_t first, std::int64_t total, bool quiet, std::string work, std::string unit)
     : first_(first), total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0),
-      interval_(terminal_ ? 0.25 : 30.0), next_(interval_), last_step_(first) {}
+      work_name_(std::move(work)), unit_(std::move(unit)), interval_(terminal_ ? 0.25 : 30.0),
+      next_(interval_), last_step_(first) {}
 
 Progress::~Progress() {
     if (printed_ && terminal_) tell("\n");
 }
 
-void Progress::update(std::int64_t step, double time, std::size_t particles) {
-    work_ += static_cast<double>(step - last_step_) * static_cast<double>(particles);
+void Progress::update(std::int64_t step, double time, std::size_t things) {
+    work_ += static_cast<double>(step - last_step_) * static_cast<double>(things);
     last_step_ = step;
     if (quiet_ || clock_.seconds() < next_) return;
     next_ = clock_.seconds() + interval_;
@@ -40,9 +42,10 @@ void Progress::print(std::int64_t step, double time) {
     printed_ = true;
     const double spent = clock_.seconds();
     const double done = static_cast<double>(step - first_) / static_cast<double>(total_ - first_);
+    const std::string at = unit_.empty() ? "" : fmt::format(" t={:.4g} {}", time, unit_);
     const std::string text =
-        fmt::format("{:3.0f}% step {:.3g}/{:.3g} t={:.4g} s {:.2g} particle-steps/s ETA {}", 100 * done,
-                    static_cast<double>(step), static_cast<double>(total_), time, work_ / spent,
+        fmt::format("{:3.0f}% step {:.3g}/{:.3g}{} {:.2g} {}/s ETA {}", 100 * done, static_cast<double>(step),
+                    static_cast<double>(total_), at, work_ / spent, work_name_,
                     clock_text(done > 0 ? spent * (1 - done) / done : 0));
     tell(terminal_ ? fmt::format("\r{:<78}", text) : text + "\n");
 }

@@ -20,23 +20,25 @@ private:
 
 class Progress {
 public:
-    // total: steps of the run; quiet: print nothing.
-    Progress(std::int64_t first, std::int64_t total, bool quiet);
+    // total: steps of the run; quiet: print nothing; work: what rates count; unit: of times, empty for none.
+    Progress(std::int64_t first, std::int64_t total, bool quiet, std::string work = "particle-steps",
+             std::string unit = "s");
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // particles: present number, for the rate. Cheap; prints when due.
-    void update(std::int64_t step, double time, std::size_t particles);
+    // things: particles or sites, present number, for the rate. Cheap; prints when due.
+    void update(std::int64_t step, double time, std::size_t things);
 
 private:
     void print(std::int64_t step, double time);
 
     std::int64_t first_, total_;
     bool quiet_, terminal_, printed_ = false;
+    std::string work_name_, unit_;
     double interval_, next_;
     std::int64_t last_step_;
-    double work_ = 0; // particle-steps
+    double work_ = 0; // things times steps
     Stopwatch clock_;
 };
 

@@ -99,17 +99,17 @@ SANDLANE_INLINE NormalForce<R> normal_force(const R& overlap, const R& rate, con
         NormalInput<R>{overlap, rate, c.elastic, c.dissipative, reduced_radius, c.cohesion, c.least}, memory);
 }
 
-// 1/d, and R_eff if the laws want it: one division for both.
-template <bool reduced, class R> struct Inverses {
-    R distance, radii;
-    SANDLANE_INLINE Inverses(const R& d, const R& inverse_radii) {
+// d, 1/d, and R_eff if the laws want it, from d^2: one division for both, which does not wait for the root.
+template <bool reduced, class R> struct Distance {
+    R d, inverse, reduced_radius;
+    SANDLANE_INLINE Distance(const R& square, const R& inverse_radii) : d(sqrt(square)) {
         if constexpr (reduced) {
-            const R both = R(1.0) / (d * inverse_radii);
-            distance = both * inverse_radii;
-            radii = both * d;
+            const R both = R(1.0) / (square * inverse_radii);
+            inverse = d * (both * inverse_radii);
+            reduced_radius = both * square;
         } else {
-            distance = R(1.0) / d;
-            radii = R(1.0);
+            inverse = d * (R(1.0) / square);
+            reduced_radius = R(1.0);
         }
     }
 };
@@ -123,18 +123,19 @@ SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoeffic
     const R time = begin_contact<memory_of<Normal, Tangential, couples, 2>>(memory, elapsed);
     constexpr bool has_couples = couples != Couples::none;
     R* const tangential = memory + rolling_memory<couples, 2>;
-    const R zero(0.0), distance = sqrt(s.dx * s.dx + s.dy * s.dy);
-    const Inverses<Normal::needs_radius || has_couples, R> inverse(distance, s.inverse_radii);
-    const R overlap = s.radius_sum - distance;
-    const R nx = s.dx * inverse.distance, ny = s.dy * inverse.distance;
+    const R zero(0.0);
+    const Distance<Normal::needs_radius || has_couples, R> distance(s.dx * s.dx + s.dy * s.dy,
+                                                                    s.inverse_radii);
+    const R overlap = s.radius_sum - distance.d;
+    const R nx = s.dx * distance.inverse, ny = s.dy * distance.inverse;
     const R rate = -(s.dvx * nx + s.dvy * ny);
     const auto touching = overlap > zero;
-    const NormalForce<R> f_n = normal_force<Normal>(select(touching, overlap, zero), rate, c, inverse.radii,
-                                                    tangential + Tangential::memory);
+    const NormalForce<R> f_n = normal_force<Normal>(select(touching, overlap, zero), rate, c,
+                                                    distance.reduced_radius, tangential + Tangential::memory);
     R spin = s.spin, share(1.0);
     Levers<R> arm{s.radius, zero};
     if constexpr (has_couples) {
-        arm = levers(distance, s.radius, s.other, s.square_difference, c.lever);
+        arm = levers(distance.d, s.radius, s.other, s.square_difference, c.lever);
         spin = R(0.5) * ((arm.first + arm.second) * s.turn + (arm.first - arm.second) * s.differ);
         share = (arm.first + arm.second) / s.radius_sum;
     }
@@ -145,7 +146,7 @@ SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoeffic
     PairForce<R> f{select(touching, -(f_n.force * nx) - f_t * ny, zero),
                    select(touching, f_t * nx - f_n.force * ny, zero), select(touching, f_t, zero), overlap};
     if constexpr (has_couples) {
-        const R limit = c.rolling_friction * inverse.radii * f_n.load;
+        const R limit = c.rolling_friction * distance.reduced_radius * f_n.load;
         R rolling;
         if constexpr (couples == Couples::sprung)
             rolling = rolling_couple(s.differ, c.rolling_damping, limit,
@@ -184,20 +185,21 @@ SANDLANE_INLINE SpatialForce<R> pair_force(const SpatialState<R>& s, const PairC
     const R time = begin_contact<memory_of<Normal, Tangential, couples, 3>>(memory, elapsed);
     constexpr bool has_couples = couples != Couples::none;
     R* const tangential = memory + rolling_memory<couples, 3>;
-    const R zero(0.0), distance = sqrt(dot(s.d, s.d));
-    const Inverses<Normal::needs_radius || has_couples, R> inverse(distance, s.inverse_radii);
-    const R overlap = s.radius_sum - distance;
-    const Vector<R> n = inverse.distance * s.d, none{zero, zero, zero};
+    const R zero(0.0);
+    const Distance<Normal::needs_radius || has_couples, R> distance(dot(s.d, s.d), s.inverse_radii);
+    const R overlap = s.radius_sum - distance.d;
+    const Vector<R> n = distance.inverse * s.d, none{zero, zero, zero};
     const R rate = -dot(s.dv, n);
     const auto touching = overlap > zero;
-    const NormalForce<R> f_n = normal_force<Normal>(select(touching, overlap, zero), rate, c, inverse.radii,
-                                                    tangential + Tangential::memory_in_space);
+    const NormalForce<R> f_n =
+        normal_force<Normal>(select(touching, overlap, zero), rate, c, distance.reduced_radius,
+                             tangential + Tangential::memory_in_space);
     if constexpr (!Tangential::needs_spin) return {select(touching, -f_n.force * n, none), none, overlap};
     Vector<R> spin = s.spin;
     R share(1.0);
     Levers<R> arm{s.radius, zero};
     if constexpr (has_couples) {
-        arm = levers(distance, s.radius, s.other, s.square_difference, c.lever);
+        arm = levers(distance.d, s.radius, s.other, s.square_difference, c.lever);
         spin = R(0.5) * ((arm.first + arm.second) * s.turn + (arm.first - arm.second) * s.differ);
         share = (arm.first + arm.second) / s.radius_sum;
     }
@@ -209,7 +211,7 @@ SANDLANE_INLINE SpatialForce<R> pair_force(const SpatialState<R>& s, const PairC
     const Vector<R> turning = cross(n, f_t);
     SpatialForce<R> f{select(touching, f_t - f_n.force * n, none), select(touching, turning, none), overlap};
     if constexpr (has_couples) {
-        const R limit = c.rolling_friction * inverse.radii * f_n.load;
+        const R limit = c.rolling_friction * distance.reduced_radius * f_n.load;
         const Vector<R> differ = s.differ - dot(s.differ, n) * n;
         Vector<R> rolling;
         if constexpr (couples == Couples::sprung)

@@ -105,14 +105,19 @@ struct CundallStrack {
 
 private:
     // The spring moves along with its contact: turned into the tangential plane and about the normal by the
-    // mean twist of the grains, at its old length.
+    // mean twist of the grains, at its old length, |old|/|turned| = (1 - e)^(-1/2) with e = 1 -
+    // turned^2/old^2. In a time step e is so small that its series is exact to rounding, and has no root to
+    // wait for.
     template <class R>
     static SANDLANE_INLINE Vector<R> carried(const SpatialInput<R>& c, const Vector<R>& old) {
+        const R one(1.0), before = dot(old, old), inverse = one / before;
         const Vector<R> flat = old - dot(c.normal, old) * c.normal;
         const Vector<R> turned = flat + (c.elapsed * c.twist) * cross(c.normal, flat);
-        const R square = dot(turned, turned);
-        const R stretch = sqrt(dot(old, old) / square);
-        return select(square > R(0.0), stretch, R(0.0)) * turned;
+        const R after = dot(turned, turned), e = (before - after) * inverse;
+        R stretch = one + e * (R(0.5) + R(0.375) * e);
+        const auto far = max(e, -e) > R(1e-5);
+        if (any(far)) stretch = select(far, sqrt(before / after), stretch);
+        return select(after > R(1e-300), stretch, R(0.0)) * turned;
     }
 };
 

@@ -161,14 +161,15 @@ void PairLists::build(const State& state, const simd::PairView& pairs, const sim
 void PairLists::build_tile(std::size_t index, const State& state, const simd::PairView& pairs,
                            const simd::DimensionKernels& kernels) {
     Tile& t = tiles_[index];
-    t.i.clear();
-    t.j.clear();
+    // Found into scratch: lists keep no more than they need.
+    thread_local std::vector<std::int32_t> listed_i, listed_j, found;
+    listed_i.clear();
+    listed_j.clear();
+    found.resize(cells_.most_around() + block_width);
     const auto begin = static_cast<std::int32_t>(index * tile_size);
     const auto end = static_cast<std::int32_t>(std::min(state.size(), (index + 1) * tile_size));
     const auto dimension = static_cast<std::size_t>(state.dimension);
     const simd::CellView view = cells_.view();
-    thread_local std::vector<std::int32_t> found;
-    if (found.size() < cells_.most_around() + block_width) found.resize(cells_.most_around() + block_width);
     for (std::int32_t i = begin; i < end; ++i) {
         const auto grain = static_cast<std::size_t>(i);
         std::copy_n(state.record_of(grain), dimension, built_.data() + grain * dimension);
@@ -177,13 +178,16 @@ void PairLists::build_tile(std::size_t index, const State& state, const simd::Pa
         const auto last = std::remove_if(found.begin(), found.begin() + count,
                                          [&](std::int32_t j) { return j >= begin && j < i; });
         std::sort(found.begin(), last);
-        t.j.insert(t.j.end(), found.begin(), last);
-        t.i.resize(t.j.size(), i);
+        listed_j.insert(listed_j.end(), found.begin(), last);
+        listed_i.resize(listed_j.size(), i);
     }
-    t.count = static_cast<std::int32_t>(t.i.size());
+    t.count = static_cast<std::int32_t>(listed_i.size());
+    for (std::vector<std::int32_t>* list : {&listed_i, &listed_j})
+        list->insert(list->end(), block_width, begin);
+    t.i.assign(listed_i.begin(), listed_i.end());
+    t.j.assign(listed_j.begin(), listed_j.end());
     const simd::Images images = pairs.sheared ? simd::Images::sheared : simd::Images::periodic;
     t.images = may_cross(t, state, pairs) ? images : simd::Images::none;
-    for (std::vector<std::int32_t>* list : {&t.i, &t.j}) list->resize(list->size() + block_width, begin);
 }
 
 // Whether while the list lasts a pair may be nearest across a periodic side: it is now, or one of its grains
@@ -228,10 +232,12 @@ void PairLists::refresh_tile(std::size_t index, const State& state, const simd::
     t.near_i.assign(near_i.data(), near_i.data() + count + block_width);
     t.near_j.assign(near_j.data(), near_j.data() + count + block_width);
     if (fields_ == 0) return;
-    Memory before;
+    // What was before waits in scratch, whose room the tile takes over: nothing is allocated.
+    thread_local Memory before;
+    thread_local std::vector<std::int32_t> last_position;
     std::swap(before, t.memory);
-    std::vector<std::int32_t> last_position(position.data(), position.data() + count);
     std::swap(last_position, t.position);
+    t.position.assign(position.data(), position.data() + count);
     t.memory.clear(count + block_width, row());
     if (rebuilt) return recall_memory(t, state);
     // From the near pairs before to those now: both ascend in their position in the outer list.

@@ -189,10 +189,11 @@ template <class T> std::string Table<T>::write_inline(const T& object, std::int6
     return fmt::format("{{ {} }}", fmt::join(entries(object, dimension), ", "));
 }
 
-template <class T> std::string Table<T>::reference(const std::string& heading) const {
-    std::string text = fmt::format(
-        "## `{}`\n\n{}\n\n| key | type | unit | default | allowed | meaning |\n|---|---|---|---|---|---|\n",
-        heading, doc_);
+template <class T>
+std::string Table<T>::reference(const std::string& heading, const std::string& note) const {
+    std::string text = fmt::format("## `{}`\n\n{}{}{}\n\n| key | type | unit | default | allowed | meaning "
+                                   "|\n|---|---|---|---|---|---|\n",
+                                   heading, doc_, note.empty() ? "" : " ", note);
     const T defaults{};
     for (const Field<T>& field : fields_) {
         const std::int64_t dimension = field.only == 3 ? 3 : 2;

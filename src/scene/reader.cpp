@@ -4,6 +4,7 @@
 #include "core/file.hpp"
 #include "scene/fields.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 namespace sandlane::scene {
@@ -83,6 +84,29 @@ std::int64_t dimension_of(const Value& root) {
     return domain.dimension;
 }
 
+// Which tables are read depends on it.
+Engine method_of(const Value& root) {
+    const Value* value = root.find("method");
+    return value == nullptr ? Engine::md
+                            : static_cast<Engine>(read_choice(*value, "method", engine_choices()));
+}
+
+// "md" or "edmd", for messages.
+std::string names_of(EngineSet engines) {
+    std::string names;
+    for (std::size_t n = 0; n < engine_choices().size(); ++n)
+        if (engines.contains(static_cast<Engine>(n)))
+            names += fmt::format("{}\"{}\"", names.empty() ? "" : " or ", engine_choices()[n]);
+    return names;
+}
+
+void check_engine(Engine method, EngineSet readers, const Value& value, const std::string& table) {
+    if (readers.contains(method)) return;
+    fail_at(value, table,
+            fmt::format("is not read by method = \"{}\"; it goes with method = {}",
+                        engine_choices()[static_cast<std::size_t>(method)], names_of(readers)));
+}
+
 template <class T>
 void read_list(std::vector<T>& list, const Table<T>& table, const Value& value, const std::string& name,
                std::int64_t dimension) {
@@ -92,46 +116,56 @@ void read_list(std::vector<T>& list, const Table<T>& table, const Value& value, 
         table.read(list.emplace_back(), value.items[n], fmt::format("{}[{}]", name, n), dimension);
 }
 
+// False if the scene has no table of this name.
+bool read_table(Scene& scene, const std::string& key, const Value& value, std::int64_t dimension) {
+    using enum Engine;
+#define TABLE(member, name, table, engines)                                                                  \
+    if (key == (name)) {                                                                                     \
+        check_engine(scene.method, engines, value, key);                                                     \
+        table().read(scene.member, value, key, dimension);                                                   \
+        return true;                                                                                         \
+    }
+#define LIST(member, name, table, engines)                                                                   \
+    if (key == (name)) {                                                                                     \
+        check_engine(scene.method, engines, value, key);                                                     \
+        read_list(scene.member, table(), value, key, dimension);                                             \
+        return true;                                                                                         \
+    }
+#include "scene/engines.def"
+    return false;
+}
+
+// What may stand outside any table: the tables that the engine reads, and keys.
+std::vector<std::string> known_names(Engine method) {
+    using enum Engine;
+    std::vector<std::string> known;
+#define TABLE(member, name, table, engines)                                                                  \
+    if (EngineSet(engines).contains(method)) known.emplace_back(name);
+#define LIST(member, name, table, engines) TABLE(member, name, table, engines)
+#include "scene/engines.def"
+    for (const Field<Scene>& field : scene_table().fields()) known.push_back(field.name);
+    return known;
+}
+
+bool reads_domain(Engine method) {
+    const std::vector<std::string> known = known_names(method);
+    return std::find(known.begin(), known.end(), "domain") != known.end();
+}
+
 Scene scene_from(const Value& root) {
     Scene scene;
+    scene.method = method_of(root);
     const std::int64_t dimension = dimension_of(root);
     if (dimension == 3) scene.md.inertia = Inertia::sphere; // the default
     Value rest = root;
     rest.members.clear();
-    for (const auto& [key, value] : root.members) {
-        if (key == "domain")
-            domain_table().read(scene.domain, value, key, dimension);
-        else if (key == "materials")
-            read_list(scene.materials, material_table(), value, key, dimension);
-        else if (key == "pairs")
-            read_list(scene.pairs, pair_table(), value, key, dimension);
-        else if (key == "grains")
-            read_list(scene.grains, grains_table(), value, key, dimension);
-        else if (key == "walls")
-            read_list(scene.walls, wall_table(), value, key, dimension);
-        else if (key == "sinks")
-            read_list(scene.sinks, sink_table(), value, key, dimension);
-        else if (key == "motions")
-            read_list(scene.motions, motion_table(), value, key, dimension);
-        else if (key == "md")
-            md_table().read(scene.md, value, key, dimension);
-        else if (key == "analysis")
-            read_list(scene.analyses, analysis_table(), value, key, dimension);
-        else if (key == "output")
-            output_table().read(scene.output, value, key, dimension);
-        else
-            rest.members.push_back({key, value});
-    }
-    std::vector<std::string> known = {"domain", "materials", "pairs", "grains",   "walls",
-                                      "sinks",  "motions",   "md",    "analysis", "output"};
-    for (const Field<Scene>& field : scene_table().fields()) known.push_back(field.name);
-    for (const auto& [key, value] : rest.members) {
-        bool found = false;
-        for (const std::string& k : known) found = found || k == key;
-        if (!found) fail_unknown(value, key, known);
-    }
+    for (const auto& [key, value] : root.members)
+        if (!read_table(scene, key, value, dimension)) rest.members.push_back({key, value});
+    const std::vector<std::string> known = known_names(scene.method);
+    for (const auto& [key, value] : rest.members)
+        if (std::find(known.begin(), known.end(), key) == known.end()) fail_unknown(value, key, known);
     scene_table().read(scene, rest, "", dimension);
-    if (root.find("domain") == nullptr)
+    if (reads_domain(scene.method) && root.find("domain") == nullptr)
         fail_at(root, "domain", "is missing; write [domain] with lower and upper");
     return scene;
 }
@@ -173,18 +207,15 @@ Scene read_scene(const std::filesystem::path& path, const Overrides& overrides) 
 }
 
 std::string write_scene(const Scene& scene) {
+    using enum Engine;
     const std::int64_t dimension = scene.domain.dimension;
     std::string text = scene_table().write(scene, dimension);
-    text += "\n[domain]\n" + domain_table().write(scene.domain, dimension);
-    write_list(text, "materials", material_table(), scene.materials, dimension);
-    write_list(text, "pairs", pair_table(), scene.pairs, dimension);
-    write_list(text, "grains", grains_table(), scene.grains, dimension);
-    write_list(text, "walls", wall_table(), scene.walls, dimension);
-    write_list(text, "sinks", sink_table(), scene.sinks, dimension);
-    write_list(text, "motions", motion_table(), scene.motions, dimension);
-    text += "\n[md]\n" + md_table().write(scene.md, dimension);
-    write_list(text, "analysis", analysis_table(), scene.analyses, dimension);
-    text += "\n[output]\n" + output_table().write(scene.output, dimension);
+#define TABLE(member, name, table, engines)                                                                  \
+    if (EngineSet(engines).contains(scene.method))                                                           \
+        text += "\n[" name "]\n" + table().write(scene.member, dimension);
+#define LIST(member, name, table, engines)                                                                   \
+    if (EngineSet(engines).contains(scene.method)) write_list(text, name, table(), scene.member, dimension);
+#include "scene/engines.def"
     return text;
 }
 

@@ -58,16 +58,25 @@ File names are relative to the folder of the scene file.
 
 )";
 
+// Nothing of what all engines read.
+std::string read_by(EngineSet engines) {
+    const Choices& names = engine_choices();
+    std::vector<std::string> readers;
+    for (std::size_t n = 0; n < names.size(); ++n)
+        if (engines.contains(static_cast<Engine>(n))) readers.push_back(fmt::format("`\"{}\"`", names[n]));
+    return readers.size() == names.size() ? "" : fmt::format("With `method` = {}.", fmt::join(readers, ", "));
+}
+
 } // namespace
 
 std::string scene_reference() {
-    return std::string(introduction) + scene_table().reference("(top level)") +
-           domain_table().reference("[domain]") + material_table().reference("[[materials]]") +
-           pair_table().reference("[[pairs]]") + grains_table().reference("[[grains]]") +
-           item_table().reference("items of [[grains]] and [[walls]]") + wall_table().reference("[[walls]]") +
-           sink_table().reference("[[sinks]]") + motion_table().reference("[[motions]]") +
-           md_table().reference("[md]") + analysis_table().reference("[[analysis]]") +
-           output_table().reference("[output]");
+    using enum Engine;
+    std::string text = std::string(introduction) + scene_table().reference("(top level)");
+#define TABLE(member, name, table, engines) text += table().reference("[" name "]", read_by(engines));
+#define LIST(member, name, table, engines) text += table().reference("[[" name "]]", read_by(engines));
+#define PART(heading, table, engines) text += table().reference(heading, read_by(engines));
+#include "scene/engines.def"
+    return text;
 }
 
 } // namespace sandlane::scene

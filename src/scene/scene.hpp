@@ -12,7 +12,27 @@
 
 namespace sandlane::scene {
 
-enum class Engine { md };
+// What runs a scene: the value of `method`.
+enum class Engine {
+#define ENGINE(choice, name, what) choice,
+#include "scene/engines.def"
+};
+
+class EngineSet {
+public:
+    constexpr EngineSet(Engine engine) : bits_(1U << static_cast<unsigned>(engine)) {} // NOLINT: md | edmd
+    [[nodiscard]] constexpr bool contains(Engine engine) const {
+        return (bits_ >> static_cast<unsigned>(engine) & 1U) != 0;
+    }
+    friend constexpr EngineSet operator|(EngineSet a, EngineSet b) { return EngineSet(a.bits_ | b.bits_); }
+    [[nodiscard]] static constexpr EngineSet all() { return EngineSet(~0U); }
+
+private:
+    constexpr explicit EngineSet(unsigned bits) : bits_(bits) {}
+    unsigned bits_;
+};
+inline constexpr EngineSet every_engine = EngineSet::all();
+
 enum class NormalLaw {
 #define NORMAL(type, choice, name, key) choice,
 #include "laws/laws.def"

@@ -27,7 +27,24 @@ std::string write_periodic(const Domain& d, std::int64_t dimension) {
     return joined(names);
 }
 
+// "md: force-based molecular dynamics; ..."
+std::string engines_explained() {
+    const std::vector<std::string> lines = {
+#define ENGINE(choice, name, what) name ": " what,
+#include "scene/engines.def"
+    };
+    return fmt::format("{}", fmt::join(lines, "; "));
+}
+
 } // namespace
+
+const Choices& engine_choices() {
+    static const Choices choices = {
+#define ENGINE(choice, name, what) name,
+#include "scene/engines.def"
+    };
+    return choices;
+}
 
 const Choices& normal_choices() {
     static const Choices choices = {
@@ -65,7 +82,7 @@ const Table<Scene>& scene_table() {
         Table<Scene>("Keys outside any table.")
             .text("title", &Scene::title, "shown in pictures and reports")
             .text("description", &Scene::description, "shown in the report")
-            .choice("method", &Scene::method, {"md"}, "engine: force-based molecular dynamics")
+            .choice("method", &Scene::method, engine_choices(), "engine: " + engines_explained())
             .integer("seed", &Scene::seed, between(0, 9e15),
                      "seed of all random numbers; the same seed gives the same scene");
     return table;

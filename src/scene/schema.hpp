@@ -80,7 +80,8 @@ public:
     // One line for each key, or all of them in braces.
     [[nodiscard]] std::string write(const T& object, std::int64_t dimension) const;
     [[nodiscard]] std::string write_inline(const T& object, std::int64_t dimension) const;
-    [[nodiscard]] std::string reference(const std::string& heading) const; // Markdown
+    // Markdown. note: a sentence after what the table is for, or nothing.
+    [[nodiscard]] std::string reference(const std::string& heading, const std::string& note = {}) const;
     [[nodiscard]] const std::vector<Field<T>>& fields() const { return fields_; }
 
 private:
@@ -94,6 +95,7 @@ private:
 };
 
 // Choices that others spell too: the command line, outputs, messages.
+const Choices& engine_choices();
 const Choices& normal_choices();
 const Choices& tangential_choices();
 const Choices& wall_choices();
@@ -119,7 +121,9 @@ const Table<Scene>& scene_table(); // the keys outside any table
 [[noreturn]] void fail_unknown(const Value& value, const std::string& path,
                                const std::vector<std::string>& known);
 
-// References between tables, geometry and coefficients that the chosen laws need (validate.cpp).
+// What one key cannot know alone, by the engine of the scene. Throws Error(invalid_input).
 void validate(const Scene& scene, const std::string& file);
+#define ENGINE(choice, name, what) void validate_##choice(const Scene& scene, const std::string& file);
+#include "scene/engines.def"
 
 } // namespace sandlane::scene

@@ -1,5 +1,5 @@
-// What one key cannot know alone: names that refer to each other, shapes that need certain keys, coefficients
-// that the chosen laws read.
+// What one key of a scene of grains cannot know alone: names that refer to each other, shapes that need
+// certain keys, coefficients that the chosen laws read.
 #include "core/error.hpp"
 #include "scene/schema.hpp"
 #include "scene/space.hpp"
@@ -381,7 +381,7 @@ struct Validator {
 
 } // namespace
 
-void validate(const Scene& scene, const std::string& file) {
+void validate_md(const Scene& scene, const std::string& file) {
     const Validator v{scene, file};
     v.check_domain();
     v.check_method();
@@ -397,6 +397,16 @@ void validate(const Scene& scene, const std::string& file) {
         v.check_analysis(scene.analyses[n], fmt::format("analysis[{}]", n));
     }
     for (std::size_t n = 0; n < scene.motions.size(); ++n) v.check_motion(n);
+}
+
+void validate(const Scene& scene, const std::string& file) {
+    switch (scene.method) {
+#define ENGINE(choice, name, what)                                                                           \
+    case Engine::choice:                                                                                     \
+        validate_##choice(scene, file);                                                                      \
+        break;
+#include "scene/engines.def"
+    }
 }
 
 } // namespace sandlane::scene

@@ -1,4 +1,4 @@
-#include "app/run_analyses.hpp"
+#include "app/md_analyses.hpp"
 
 #include "app/interval.hpp"
 
@@ -7,8 +7,8 @@
 
 namespace sandlane::app {
 
-void RunAnalyses::open(const std::filesystem::path& folder, const scene::Scene& scene, std::int64_t stride,
-                       const output::Checkpoint* resume) {
+void MdAnalyses::open(const std::filesystem::path& folder, const scene::Scene& scene, std::int64_t stride,
+                      const output::Checkpoint* resume) {
     for (const scene::AnalysisSpec& spec : scene.analyses) {
         const std::string name = "analysis " + spec.name;
         const std::int64_t every = interval(spec.every, scene.md.duration, 100, scene.md.dt, stride);
@@ -18,7 +18,7 @@ void RunAnalyses::open(const std::filesystem::path& folder, const scene::Scene& 
     }
 }
 
-std::int64_t RunAnalyses::next_due(std::int64_t step) const {
+std::int64_t MdAnalyses::next_due(std::int64_t step) const {
     std::int64_t next = never;
     for (const Entry& entry : entries_) {
         if (entry.start == never) continue;
@@ -28,22 +28,22 @@ std::int64_t RunAnalyses::next_due(std::int64_t step) const {
     return next;
 }
 
-bool RunAnalyses::due(std::int64_t step, bool all) const {
+bool MdAnalyses::due(std::int64_t step, bool all) const {
     return std::any_of(entries_.begin(), entries_.end(),
                        [&](const Entry& entry) { return entry.due(step, all); });
 }
 
-void RunAnalyses::write_due(const md::Simulation& simulation, const analysis::Snapshot& snapshot, bool all) {
+void MdAnalyses::write_due(const md::Simulation& simulation, const analysis::Snapshot& snapshot, bool all) {
     const analysis::Contacts contacts = simulation.contacts();
     for (Entry& entry : entries_)
         if (entry.due(simulation.step(), all)) entry.file.write({snapshot, contacts});
 }
 
-void RunAnalyses::add_bookmarks(std::map<std::string, std::string>& bookmarks) {
+void MdAnalyses::add_bookmarks(std::map<std::string, std::string>& bookmarks) {
     for (Entry& entry : entries_) bookmarks[entry.bookmark] = entry.file.bookmark();
 }
 
-void RunAnalyses::draw(const md::Simulation& simulation) const {
+void MdAnalyses::draw(const md::Simulation& simulation) const {
     if (entries_.empty()) return;
     const analysis::Snapshot snapshot = simulation.snapshot();
     for (const Entry& entry : entries_) entry.file.draw(snapshot);

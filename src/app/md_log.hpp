@@ -1,4 +1,4 @@
-// What `sandlane run` writes to log.csv.
+// What a run of grains writes to log.csv.
 #pragma once
 
 #include "analysis/snapshot.hpp"

@@ -14,7 +14,7 @@
 
 namespace sandlane::app {
 
-class RunAnalyses {
+class MdAnalyses {
 public:
     // scene: with the time step of the run. resume: null for a fresh run.
     void open(const std::filesystem::path& folder, const scene::Scene& scene, std::int64_t stride,

@@ -1,4 +1,4 @@
-#include "app/run_log.hpp"
+#include "app/md_log.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,166 @@
+#include "app/md_engine.hpp"
+
+#include "app/commands.hpp"
+#include "app/json.hpp"
+#include "app/md_difference.hpp"
+#include "app/md_log.hpp"
+#include "app/md_recorder.hpp"
+#include "core/error.hpp"
+#include "output/picture.hpp"
+#include "scene/schema.hpp"
+
+#include <algorithm>
+
+namespace sandlane::app {
+
+const Words& MdEngine::words() const {
+    static const Words words;
+    return words;
+}
+
+namespace {
+
+// Files of grains may have changed since; positions may not tell, radii and masses do.
+bool same_grains(const md::State& state, const std::vector<scene::GrainState>& grains) {
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        const auto id = static_cast<std::size_t>(state.id[i]);
+        if (id >= grains.size() || grains[id].radius != state.radius(i) || grains[id].mass != state.mass[i])
+            return false;
+    }
+    return true;
+}
+
+const md::Simulation& simulation_of(const Engine& engine) {
+    return dynamic_cast<const MdEngine&>(engine).simulation();
+}
+
+} // namespace
+
+void MdEngine::restore(const std::string& state, const std::string& origin) {
+    try {
+        simulation_.restore(state);
+    } catch (const Error& e) {
+        fail(e.code(), "{}: {}. Overrides by --set must keep grains, domain, walls, laws and time step.",
+             origin, e.what());
+    }
+    if (!same_grains(simulation_.state(), *grains_))
+        fail(Exit::io,
+             "{}: its grains are not those that its scene describes now; a file of grains has changed",
+             origin);
+}
+
+std::vector<Difference> MdEngine::compare_state(const Engine& other) const {
+    return compare_snapshots(simulation_.snapshot(), simulation_of(other).snapshot());
+}
+
+std::vector<Difference> MdEngine::compare_kernels(simd::Isa first, simd::Isa second) const {
+    return compare_forces(simulation_, first, second);
+}
+
+std::vector<analysis::LogColumn> MdEngine::log_columns() const {
+    return app::log_columns(scene());
+}
+
+std::vector<double> MdEngine::log_row() {
+    const md::Observables o = simulation_.observe();
+    if (o.largest_overlap > 0.05 && !overlap_warned_) {
+        overlap_warned_ = true;
+        warnings_.push_back(fmt::format(
+            "t = {:.4g} s: largest overlap {:.3g} R_min is above 0.05; the material is soft for this load",
+            time(), o.largest_overlap));
+    }
+    return app::log_row(simulation_, o);
+}
+
+std::vector<std::string> MdEngine::news() {
+    std::vector<std::string> news = std::move(warnings_);
+    warnings_.clear();
+    const std::vector<std::string>& events = simulation_.events();
+    for (; events_seen_ < events.size(); ++events_seen_) news.push_back(events[events_seen_]);
+    return news;
+}
+
+std::unique_ptr<Recorder> MdEngine::recorder(const std::filesystem::path& folder,
+                                             const output::Checkpoint* resume) {
+    return std::make_unique<MdRecorder>(folder, simulation_, resume);
+}
+
+void MdEngine::draw(const std::filesystem::path& png, const Look& look) const {
+    const scene::Choices& colours = scene::colour_choices();
+    const auto colour = std::find(colours.begin(), colours.end(), look.colour);
+    output::PictureStyle style = output::picture_style(scene());
+    if (!look.view.empty()) {
+        if (scene().domain.dimension != 3)
+            fail(Exit::invalid_input, "--view goes with three-dimensional scenes only");
+        scene::Scene turned = scene();
+        turned.output.view = {look.view[0], look.view[1], look.view[2]};
+        style.camera = output::camera_of(turned);
+    }
+    if (look.width > 0) style.width = look.width;
+    if (colour != colours.end()) style.colour = static_cast<scene::Colour>(colour - colours.begin());
+    output::write_picture(png, simulation_.snapshot(), style);
+}
+
+std::string MdEngine::plan_json() const {
+    const md::Plan& plan = simulation_.plan();
+    return fmt::format(R"({{"engine": "md", "neighbours": "{}", "order": {}, "spin": {}, "dt": {}}})",
+                       scene::neighbour_choices()[static_cast<std::size_t>(plan.neighbours)], plan.order,
+                       md::turns(plan), json_number(plan.dt));
+}
+
+std::string MdEngine::summary_json() const {
+    return fmt::format(R"("removed": {}, )", simulation_.removed());
+}
+
+std::vector<std::pair<std::string, std::string>> MdEngine::report_rows() const {
+    return {{"Grains", std::to_string(size())},
+            {"Simulated time", fmt::format("{:.4g} s", time())},
+            {"Steps", std::to_string(step())},
+            {"Time step", fmt::format("{:.4g} s", time_step())}};
+}
+
+namespace {
+
+class MdSetup final : public Setup {
+public:
+    MdSetup(scene::Scene scene, const Machine& machine)
+        : scene_(std::move(scene)),
+          grains_(std::make_shared<const std::vector<scene::GrainState>>(scene::initial_grains(scene_))),
+          needs_(md::analyse(scene_, *grains_)), derived_(md::derive(scene_, needs_)),
+          plan_(md::make_plan(scene_, needs_, derived_, machine.isa, machine.threads)) {}
+
+    [[nodiscard]] double memory_bytes() const override { return md::memory_bytes(needs_, plan_); }
+    [[nodiscard]] std::string description() const override {
+        return md::describe(scene_, needs_, derived_, plan_);
+    }
+    [[nodiscard]] std::string json() const override {
+        return fmt::format(
+            R"({{"grains": {}, "poured": {}, "dt": {}, "steps": {}, "collision_time": {}, "critical_dt": {}, )"
+            R"("restitution": [{}, {}], "memory_bytes": {}, "isa": "{}", "threads": {}}})",
+            needs_.grains, needs_.poured, json_number(plan_.dt), plan_.steps,
+            json_number(derived_.collision_time), json_number(derived_.critical_dt),
+            json_number(derived_.restitution_min), json_number(derived_.restitution_max), memory_bytes(),
+            simd::isa_name(plan_.isa), plan_.threads);
+    }
+    [[nodiscard]] std::unique_ptr<Engine> start() const override { return start(plan_.isa); }
+    [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) const override {
+        md::Plan plan = plan_;
+        plan.isa = isa;
+        return std::make_unique<MdEngine>(md::Simulation(scene_, *grains_, needs_, plan), grains_);
+    }
+
+private:
+    scene::Scene scene_;
+    MdEngine::Grains grains_;
+    md::Needs needs_;
+    md::Derived derived_;
+    md::Plan plan_;
+};
+
+} // namespace
+
+std::unique_ptr<Setup> prepare_md(scene::Scene scene, const Machine& machine) {
+    return std::make_unique<MdSetup>(std::move(scene), machine);
+}
+
+} // namespace sandlane::app
