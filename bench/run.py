@@ -101,8 +101,9 @@ def skips(options):
 def sizes(options):
     """A few large grains among many small ones: a grid of cells for each class of radii, or one for all."""
     isa = measure.info()[0][-1]
-    rows = [(space, method, case(method, f"linear+friction+large{one}", phi, 40000, isa).replace("md/", space))
-            for space, phi in (("md/", 0.5), ("md3/", 0.3)) for method in ("verlet", "cells") for one in ("", "+one_grid")]
+    rows = [(space, method, case(method, f"linear+friction+large{grid}", phi, 40000, isa).replace("md/", space))
+            for space, phi in (("md/", 0.5), ("md3/", 0.3)) for method in ("verlet", "cells")
+            for grid in ("", "+one_grid")]
     found = measure.steps([name for _, _, name in rows], options.rounds, options.seconds, "sizes")
     print(f"{'radii':<8}{'method':<8}{'one grid':>10}{'classes':>10}{'gain':>7}")
     for (space, method, classes), (_, _, one) in zip(rows[::2], rows[1::2]):

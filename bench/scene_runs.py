@@ -31,16 +31,16 @@ def run(name, method, *options):
 
 
 def compare(name, seconds, rounds):
-    """As many steps as `auto` takes in `seconds`; medians of the loop's time, and of auto's loss in each round."""
+    """As many steps as `auto` takes in `seconds`, the methods forwards and backwards in turn; medians of times."""
     first = run(name, "auto", "--walltime", str(seconds))
     steps = str(max(1, first["step"]))
     found = collections.defaultdict(list)
-    for _ in range(rounds):
-        for method in methods:
+    for turn in range(rounds):
+        for method in methods[::-1 if turn % 2 else 1]:
             if method == "brute-force" and first["particles"] > most_for_all_pairs:
                 continue
             summary = run(name, method, "--steps", steps)
             if summary is not None:
                 found[method].append(summary["loop_seconds"])
-    losses = [found["auto"][n] / min(times[n] for times in found.values()) - 1 for n in range(rounds)]
-    return Row(int(steps), {m: statistics.median(t) for m, t in found.items()}, statistics.median(losses))
+    medians = {method: statistics.median(times) for method, times in found.items()}
+    return Row(int(steps), medians, medians["auto"] / min(medians.values()) - 1)
