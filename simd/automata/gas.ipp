@@ -48,8 +48,9 @@ template <class Arch> struct GasRows {
         const std::int32_t last = v.columns - 1;
         row[-1] = (row[last >> 6] >> (last & 63) & 1) << 63;
         for (std::int32_t w = v.words; w < v.stride + pad; ++w) row[w] = 0;
-        const std::uint64_t first = row[0] & 1;
-        row[v.columns >> 6] |= first << (v.columns & 63);
+        const std::uint64_t first = row[0] & 1, bit = std::uint64_t{1} << (v.columns & 63);
+        std::uint64_t& end = row[v.columns >> 6];
+        end = (end & ~bit) | (first * bit);
     }
 
     // `from` must have closed ends.
@@ -161,43 +162,149 @@ template <class Arch> struct GasRows {
         to1[v.words - 1] &= mask_of(v);
     }
 
+    // Runs of segments of a row, as words.
+    struct Runs {
+        WordRange* run;
+        std::int32_t count = 0;
+
+        explicit Runs(WordRange* memory) : run(memory) {}
+        void find(const std::uint8_t* flags, std::int32_t segments) {
+            count = 0;
+            for (std::int32_t s = 0; s < segments; ++s) {
+                if (flags[s] == 0) continue;
+                const std::int32_t first = s;
+                while (s < segments && flags[s] != 0) ++s;
+                run[count++] = {first * segment_words, s * segment_words};
+            }
+        }
+        void swap(Runs& other) {
+            WordRange* const r = run;
+            const std::int32_t c = count;
+            run = other.run;
+            count = other.count;
+            other.run = r;
+            other.count = c;
+        }
+        void take_all(std::int32_t words) {
+            run[0] = {0, words};
+            count = 1;
+        }
+    };
+
+    // Which segments of the present row hold particles, and which words its particles can reach in a row: the
+    // segments beside them too, and those that must be emptied.
+    class Activity {
+    public:
+        Activity(const GasView& v, std::uint64_t* memory)
+            : v_(v), segments_(v.stride / segment_words), own(reinterpret_cast<WordRange*>(memory)),
+              below(own.run + segments_ + 1), level(below.run + segments_ + 1),
+              above(level.run + segments_ + 1), arriving(above.run + segments_ + 1),
+              flags_(reinterpret_cast<std::uint8_t*>(arriving.run + segments_ + 1)) {
+            if (v.live != nullptr) return;
+            for (Runs* runs : {&own, &below, &level, &above, &arriving}) runs->take_all(v.stride);
+        }
+
+        // planes: of the model. Before the row is collided.
+        void look(std::int32_t row, int planes) {
+            if (v_.live == nullptr) return;
+            arriving.swap(above);
+            std::uint8_t* occupied = v_.occupied + std::ptrdiff_t{row} * segments_;
+            const std::uint8_t* live = live_in(row);
+            for (std::int32_t s = 0; s < segments_; ++s)
+                occupied[s] = live[s] != 0 && holds_any(row, s, planes) ? 1 : 0;
+            own.find(occupied, segments_);
+            const std::int32_t last = (v_.words - 1) / segment_words;
+            const auto near = [&](std::int32_t s) {
+                return occupied[s] | occupied[s > 0 ? s - 1 : last] | occupied[s < last ? s + 1 : 0];
+            };
+            const auto reach = [&](std::int32_t to, Runs& runs) {
+                const std::uint8_t* there = live_in((to + v_.rows) % v_.rows);
+                for (std::int32_t s = 0; s < segments_; ++s)
+                    flags_[s] = static_cast<std::uint8_t>(s <= last && (near(s) | there[s]) != 0 ? 1 : 0);
+                runs.find(flags_, segments_);
+            };
+            reach(row - 1, below);
+            reach(row, level);
+            reach(row + 1, above);
+        }
+
+    private:
+        const GasView& v_;
+        std::int32_t segments_;
+
+        [[nodiscard]] const std::uint8_t* live_in(std::int32_t row) const {
+            return v_.live + std::ptrdiff_t{row} * segments_;
+        }
+        [[nodiscard]] bool holds_any(std::int32_t row, std::int32_t segment, int planes) const {
+            const std::ptrdiff_t at = std::ptrdiff_t{row} * v_.stride + segment * segment_words;
+            std::uint64_t any = 0;
+            for (int i = 0; i < planes; ++i)
+                for (std::int32_t w = 0; w < segment_words; ++w) any |= v_.plane[i][at + w];
+            return any != 0;
+        }
+
+    public:
+        Runs own, below, level, above;
+        Runs arriving; // above, of the row before
+
+    private:
+        std::uint8_t* flags_;
+    };
+
+    static void move_runs(const GasView& v, const Runs& runs, const std::uint64_t* from, int shift,
+                          std::uint64_t* to) {
+        for (std::int32_t k = 0; k < runs.count; ++k)
+            move(v, from, shift, to, runs.run[k].first, runs.run[k].last);
+    }
+    static void empty(const Runs& runs, const Buffer& buffer, int planes) {
+        for (std::int32_t k = 0; k < runs.count; ++k)
+            for (int i = 0; i < planes; ++i)
+                for (std::int32_t w = runs.run[k].first; w < runs.run[k].last; ++w) buffer.collided[i][w] = 0;
+    }
+
     template <GasModel model, GasVariant variant>
     static void step(const GasView& v, const GasTile& tile, std::uint64_t* scratch) {
         constexpr bool square = model == GasModel::hpp;
-        constexpr int planes = planes_of(model);
+        constexpr int planes = planes_of(model), directions = square ? 4 : 6;
         // Directions along the row, up and down.
         constexpr int level[2] = {0, square ? 2 : 3}, up[2] = {1, square ? 1 : 2},
                       down[2] = {square ? 3 : 4, square ? 3 : 5}, sideways = square ? 1 : 2;
         const Buffer buffer(scratch, v.stride);
         std::uint64_t* const walls = buffer.rising[1] + v.stride + pad;
-        const WordRange whole{0, v.stride};
+        Activity active(v, walls + v.stride);
+        if (v.live != nullptr)
+            for (int i = 0; i < planes; ++i)
+                for (std::int32_t w = 0; w < v.stride; ++w) buffer.collided[i][w] = 0;
         for (std::int32_t row = tile.first; row < tile.last; ++row) {
             const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(row) * v.stride;
-            collide_row<model, variant>(v, row, whole, buffer);
-            for (int k = 0; k < sideways; ++k)
-                if (row > tile.first) // sent up by the row before
-                    move(v, buffer.rising[k], 0, v.plane[up[k]] + start, 0, v.stride);
+            if (v.live != nullptr) empty(active.own, buffer, planes);
+            active.look(row, planes);
+            for (std::int32_t k = 0; k < active.own.count; ++k)
+                collide_row<model, variant>(v, row, active.own.run[k], buffer);
+            if (row > tile.first) // sent up by the row before
+                for (int k = 0; k < sideways; ++k)
+                    move_runs(v, active.arriving, buffer.rising[k], 0, v.plane[up[k]] + start);
             if (row == tile.first && tile.to_below == nullptr)
                 reflect<square>(v, row, buffer, true, v.plane[up[0]] + start, v.plane[up[1]] + start, walls);
             if (row + 1 == tile.last && tile.to_above == nullptr)
                 reflect<square>(v, row, buffer, false, v.plane[down[0]] + start, v.plane[down[1]] + start,
                                 walls);
-            for (int i = 0; i < (square ? 4 : 6); ++i) close_ends(v, buffer.collided[i]);
+            for (int i = 0; i < directions; ++i) close_ends(v, buffer.collided[i]);
             for (const int i : level)
-                move(v, buffer.collided[i], shift_of<square>(i, row), v.plane[i] + start, 0, v.stride);
-            if constexpr (planes == 7) move(v, buffer.collided[6], 0, v.plane[6] + start, 0, v.stride);
+                move_runs(v, active.level, buffer.collided[i], shift_of<square>(i, row), v.plane[i] + start);
+            if constexpr (planes == 7) move_runs(v, active.level, buffer.collided[6], 0, v.plane[6] + start);
             for (int k = 0; k < sideways; ++k) {
                 const int shift = shift_of<square>(down[k], row);
                 if (row > tile.first)
-                    move(v, buffer.collided[down[k]], shift, v.plane[down[k]] + start - v.stride, 0,
-                         v.stride);
+                    move_runs(v, active.below, buffer.collided[down[k]], shift,
+                              v.plane[down[k]] + start - v.stride);
                 else if (tile.to_below != nullptr)
                     move(v, buffer.collided[down[k]], shift, tile.to_below + k * v.stride, 0, v.stride);
             }
             for (int k = 0; k < sideways; ++k) {
                 const int shift = shift_of<square>(up[k], row);
                 if (row + 1 < tile.last)
-                    move(v, buffer.collided[up[k]], shift, buffer.rising[k], 0, v.stride);
+                    move_runs(v, active.above, buffer.collided[up[k]], shift, buffer.rising[k]);
                 else if (tile.to_above != nullptr)
                     move(v, buffer.collided[up[k]], shift, tile.to_above + k * v.stride, 0, v.stride);
             }

@@ -45,12 +45,16 @@ struct GasView {
     std::int32_t rows, columns, words, stride;
     std::uint32_t seed[2], step;
     std::uint32_t dissipation, gravity, roughness; // P of P/2^K
+    // Segments that may hold particles, [rows][stride/segment_words], and where the kernel notes which do;
+    // null: all are taken to.
+    const std::uint8_t* live;
+    std::uint8_t* occupied;
 };
 
 // Words of memory that a kernel needs beside the lattice.
 [[nodiscard]] constexpr std::size_t gas_scratch_words(std::int32_t stride) {
     return (gas_planes + 2) * (static_cast<std::size_t>(stride) + 2 * segment_words) +
-           static_cast<std::size_t>(stride);
+           static_cast<std::size_t>(stride) + 6 * (static_cast<std::size_t>(stride) / segment_words + 2);
 }
 
 struct GasTile {

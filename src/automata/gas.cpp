@@ -44,7 +44,8 @@ simd::GasKernel kernel_for(const GasLattice& lattice, const GasRules& rules, sim
 
 } // namespace
 
-GasStepper::GasStepper(const GasLattice& lattice, const GasRules& rules, const Means& means)
+GasStepper::GasStepper(const GasLattice& lattice, const GasRules& rules, const Means& means,
+                       bool active_tiles)
     : rules_(rules), means_(means), kernel_(kernel_for(lattice, rules, means.isa)),
       tiles_(static_cast<std::size_t>((lattice.rows + simd::gas_tile_rows - 1) / simd::gas_tile_rows)),
       scratch_words_(padded(simd::gas_scratch_words(lattice.stride))) {
@@ -52,6 +53,31 @@ GasStepper::GasStepper(const GasLattice& lattice, const GasRules& rules, const M
     scratch_.resize(scratch_words_ * static_cast<std::size_t>(means.threads));
     into_first_.resize(tiles_ * 2 * static_cast<std::size_t>(lattice.stride));
     into_last_.resize(into_first_.size());
+    if (!active_tiles) return;
+    live_.resize(static_cast<std::size_t>(lattice.rows) * static_cast<std::size_t>(lattice.stride) /
+                     simd::segment_words,
+                 1);
+    occupied_ = live_;
+}
+
+// Particles move by one site: what is near an occupied segment may be occupied next.
+void GasStepper::spread_activity(const GasLattice& lattice) {
+    const std::int32_t segments = lattice.stride / simd::segment_words,
+                       last = (lattice.words - 1) / simd::segment_words, rows = lattice.rows;
+    for_tiles(tiles_, means_.threads, [&](std::size_t k) {
+        const std::int32_t first = static_cast<std::int32_t>(k) * simd::gas_tile_rows;
+        for (std::int32_t y = first; y < std::min(first + simd::gas_tile_rows, rows); ++y)
+            for (std::int32_t s = 0; s < segments; ++s) {
+                std::uint8_t any = 0;
+                for (const std::int32_t row : {(y + rows - 1) % rows, y, (y + 1) % rows}) {
+                    const std::uint8_t* o = occupied_.data() + std::ptrdiff_t{row} * segments;
+                    any |=
+                        static_cast<std::uint8_t>(o[s] | o[s > 0 ? s - 1 : last] | o[s < last ? s + 1 : 0]);
+                }
+                live_[static_cast<std::size_t>(y) * static_cast<std::size_t>(segments) +
+                      static_cast<std::size_t>(s)] = s <= last ? any : 0;
+            }
+    });
 }
 
 void GasStepper::step(GasLattice& lattice, std::uint32_t t) {
@@ -72,6 +98,8 @@ void GasStepper::step(GasLattice& lattice, std::uint32_t t) {
     v.dissipation = rules_.dissipation;
     v.gravity = rules_.gravity;
     v.roughness = rules_.roughness;
+    v.live = live_.empty() ? nullptr : live_.data();
+    v.occupied = live_.empty() ? nullptr : occupied_.data();
     const std::size_t edge = 2 * static_cast<std::size_t>(lattice.stride);
     const auto first_row = [&](std::size_t tile) {
         return static_cast<std::int32_t>(tile) * simd::gas_tile_rows;
@@ -101,6 +129,7 @@ void GasStepper::step(GasLattice& lattice, std::uint32_t t) {
                 put(into_last_.data() + at, down[n], std::min(first_row(k + 1), lattice.rows) - 1);
         }
     });
+    if (!live_.empty()) spread_activity(lattice);
 }
 
 // ---- the model
@@ -136,6 +165,7 @@ void GasFlow::restore(const std::string& state) {
     }
     load(r);
     lattice_ = std::move(read);
+    stepper_.visit_all();
     step_ = at;
 }
 
@@ -214,10 +244,10 @@ std::vector<Field> GasFlow::fields() const {
             }
         }
     Field density{"density", "particles per site", "", wide, tall, std::vector<double>(n, 0), false, 0};
-    Field vx{"velocity_x", "velocity along x", "sites/step", wide, tall, std::vector<double>(n, 0), true, 0};
+    Field vx{"velocity_x", "velocity x", "", wide, tall, std::vector<double>(n, 0), true, 0};
     Field vy = vx;
     vy.name = "velocity_y";
-    vy.label = "velocity along y";
+    vy.label = "velocity y";
     for (std::size_t k = 0; k < n; ++k) {
         density.values[k] = places[k] > 0 ? count[k] / places[k] : 0;
         vx.values[k] = count[k] > 0 ? ux[k] / count[k] : 0;

@@ -65,10 +65,15 @@ struct GasRules {
 // Steps of a lattice by kernels, in tiles of rows.
 class GasStepper {
 public:
-    GasStepper(const GasLattice& lattice, const GasRules& rules, const Means& means);
+    // active_tiles: pass over segments of rows without particles.
+    GasStepper(const GasLattice& lattice, const GasRules& rules, const Means& means,
+               bool active_tiles = false);
     void step(GasLattice& lattice, std::uint32_t t);
+    void visit_all() { live_.fill(1); } // after particles were put anywhere
 
 private:
+    void spread_activity(const GasLattice& lattice);
+
     GasRules rules_;
     Means means_;
     simd::GasKernel kernel_ = nullptr; // null: the reference
@@ -76,12 +81,14 @@ private:
     std::size_t scratch_words_;
     Column<std::uint64_t> scratch_;                // [threads][scratch_words]
     Column<std::uint64_t> into_first_, into_last_; // [tiles][2][stride]
+    Column<std::uint8_t> live_, occupied_;         // [rows][segments]; empty: all rows are whole
 };
 
 class GasFlow : public Model {
 public:
-    GasFlow(GasLattice lattice, const GasRules& rules, const Means& means)
-        : lattice_(std::move(lattice)), rules_(rules), means_(means), stepper_(lattice_, rules, means) {}
+    GasFlow(GasLattice lattice, const GasRules& rules, const Means& means, bool active_tiles = false)
+        : lattice_(std::move(lattice)), rules_(rules), means_(means),
+          stepper_(lattice_, rules, means, active_tiles) {}
 
     void run(std::int64_t steps) override;
     [[nodiscard]] std::int64_t step() const override { return step_; }

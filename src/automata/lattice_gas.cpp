@@ -56,7 +56,7 @@ std::unique_ptr<Model> make_lattice_gas(const scene::Scene& scene, const Means& 
     const double particles = s.density * rules.planes();
     fill(lattice, rules,
          fermi_dirac(particles, particles * s.velocity.x, particles * s.velocity.y, rules.planes()));
-    return std::make_unique<GasFlow>(std::move(lattice), rules, means);
+    return std::make_unique<GasFlow>(std::move(lattice), rules, means, s.active_tiles);
 }
 
 } // namespace sandlane::automata

@@ -1,6 +1,8 @@
-// Granular flow in a pipe (docs/physics.md 18): the lattice gas with dissipation, and its density waves.
+// Granular flow in a pipe (docs/physics.md 18): with one rest particle per site, a lattice gas of bit planes;
+// with any number of them, site by site.
+#include "automata/counted_pipe.hpp"
 #include "automata/gas.hpp"
-#include "automata/spectrum.hpp"
+#include "automata/pipe_statistics.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -12,21 +14,19 @@ namespace sandlane::automata {
 namespace {
 
 constexpr std::uint32_t start_stream = 1 << 20;
-constexpr std::size_t map_rows = 512; // of the space-time map
+constexpr double speed[] = {1, 0.5, -0.5, -1, -0.5, 0.5, 0}; // c_x
 
-// Particles on distinct random bits of distinct random sites.
-void fill(GasLattice& lattice, std::int64_t particles, const PhiloxKey& seed) {
-    const auto columns = static_cast<std::uint64_t>(lattice.columns),
-               rows = static_cast<std::uint64_t>(lattice.rows);
+// Calls place(x, y, bit) until it has accepted so many; it refuses a bit that is taken.
+template <class Place>
+void put_particles(std::int64_t particles, std::int64_t length, std::int64_t width, int bits,
+                   const PhiloxKey& seed, const Place& place) {
+    const auto columns = static_cast<std::uint64_t>(length), rows = static_cast<std::uint64_t>(width);
     for (std::uint64_t k = 0; particles > 0; ++k) {
         const PhiloxCounter r = philox(
             {static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(k >> 32), 0, start_stream}, seed);
         const auto y = static_cast<std::int32_t>(r[0] * rows >> 32),
                    x = static_cast<std::int32_t>(r[1] * columns >> 32);
-        const auto bit = static_cast<int>(r[2] * std::uint64_t{7} >> 32);
-        if (lattice.get(bit, x, y)) continue;
-        lattice.set(bit, x, y, true);
-        --particles;
+        if (place(x, y, static_cast<int>(r[2] * static_cast<std::uint64_t>(bits) >> 32))) --particles;
     }
 }
 
@@ -34,7 +34,7 @@ class PipeFlowModel final : public GasFlow {
 public:
     PipeFlowModel(GasLattice lattice, const GasRules& rules, const Means& means, const scene::PipeFlow& pipe)
         : GasFlow(std::move(lattice), rules, means), window_(static_cast<std::int32_t>(pipe.window)),
-          map_every_(std::max<std::int64_t>(1, pipe.steps / static_cast<std::int64_t>(map_rows))) {
+          statistics_(pipe.length, pipe.width) {
         look();
     }
 
@@ -45,44 +45,16 @@ public:
     }
     [[nodiscard]] std::vector<double> log_row() const override {
         std::vector<double> row = GasFlow::log_row();
-        row.push_back(series_.back());
+        row.push_back(statistics_.window());
         return row;
     }
     [[nodiscard]] std::vector<Field> fields() const override {
         std::vector<Field> fields = GasFlow::fields();
-        std::reverse(fields.begin(), fields.end());
+        std::reverse(fields.begin(), fields.end()); // density first
         return fields;
     }
-    // Places along x, times upwards.
-    [[nodiscard]] std::vector<Field> final_fields() const override {
-        const auto wide = static_cast<std::size_t>(lattice_.columns);
-        return {{"space-time", "particles per site", "", wide, map_.size() / wide, map_, false, 0}};
-    }
-    [[nodiscard]] std::vector<Table> final_tables() const override {
-        Table spectrum{"spectrum", {{"frequency", "1/step"}, {"power", "1"}}, {}, 0, 1, true};
-        const Spectrum s = density_spectrum();
-        for (std::size_t k = 0; k < s.frequency.size(); ++k)
-            spectrum.rows.push_back({s.frequency[k], s.power[k]});
-        Table fit{
-            "power-law", {{"exponent", "1"}, {"standard_error", "1"}, {"from", "1/step"}, {"to", "1/step"}},
-            {},          -1,
-            -1,          true};
-        if (!s.power.empty()) {
-            const std::size_t peak =
-                static_cast<std::size_t>(std::max_element(s.power.begin(), s.power.end()) - s.power.begin());
-            const Line line = power_law(s, s.frequency[peak], 0.1);
-            fit.rows.push_back({line.slope, line.error, s.frequency[peak], 0.1});
-        }
-        Table profile{"profile", {{"row", "1"}, {"density", "1/site"}, {"velocity", "sites/step"}}, {}, 0, 2,
-                      false};
-        for (std::int32_t y = 0; y < lattice_.rows; ++y) {
-            const auto r = static_cast<std::size_t>(y);
-            profile.rows.push_back({static_cast<double>(y),
-                                    row_particles_[r] / (static_cast<double>(looks_) * lattice_.columns),
-                                    row_particles_[r] > 0 ? row_momentum_[r] / row_particles_[r] : 0});
-        }
-        return {spectrum, fit, profile};
-    }
+    [[nodiscard]] std::vector<Field> final_fields() const override { return statistics_.fields(); }
+    [[nodiscard]] std::vector<Table> final_tables() const override { return statistics_.tables(); }
 
 protected:
     void look() override {
@@ -98,55 +70,131 @@ protected:
                     inside += std::popcount(words[w] & mask);
                 }
             }
-        series_.push_back(static_cast<double>(inside) / (static_cast<double>(window_) * lattice_.rows));
-        if (step_ % map_every_ == 0) add_to_maps();
+        statistics_.add_window(static_cast<double>(inside) / (static_cast<double>(window_) * lattice_.rows));
+        if (step_ % statistics_.map_every() != 0) return;
+        const auto sum = [&](std::int64_t x, std::int64_t y, const auto& weight) {
+            double total = 0;
+            for (int i = 0; i < rules_.planes(); ++i)
+                if (lattice_.get(i, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)))
+                    total += weight(i);
+            return total;
+        };
+        statistics_.add_to_maps([&](auto x, auto y) { return sum(x, y, [](int) { return 1.0; }); },
+                                [&](auto x, auto y) { return sum(x, y, [](int i) { return speed[i]; }); });
     }
-    void save(ByteWriter& w) const override {
-        w.put_array(series_.data(), series_.size());
-        w.put_array(map_.data(), map_.size());
-        w.put_array(row_particles_.data(), row_particles_.size());
-        w.put_array(row_momentum_.data(), row_momentum_.size());
-        w.put(looks_);
+    void save(ByteWriter& w) const override { statistics_.save(w); }
+    void load(ByteReader& r) override { statistics_.load(r); }
+
+private:
+    std::int32_t window_;
+    PipeStatistics statistics_;
+};
+
+class CountedPipeModel final : public Model {
+public:
+    CountedPipeModel(CountedPipe pipe, const GasRules& rules, const scene::PipeFlow& scene)
+        : pipe_(std::move(pipe)), rules_(rules), window_(scene.window),
+          statistics_(scene.length, scene.width) {
+        look();
     }
-    void load(ByteReader& r) override {
-        r.get_array(series_);
-        r.get_array(map_);
-        r.get_array(row_particles_);
-        r.get_array(row_momentum_);
-        looks_ = r.get<std::int64_t>();
-        const bool fits = map_.size() % static_cast<std::size_t>(lattice_.columns) == 0 &&
-                          row_particles_.size() == static_cast<std::size_t>(lattice_.rows) &&
-                          row_momentum_.size() == row_particles_.size();
-        if (!fits || series_.empty()) fail(Exit::io, "the state is one of another pipe");
+
+    void run(std::int64_t steps) override {
+        for (std::int64_t n = 0; n < steps; ++n) {
+            crowded_ += automata::step(pipe_, rules_, static_cast<std::uint32_t>(step_));
+            ++step_;
+            look();
+        }
+    }
+    [[nodiscard]] std::int64_t step() const override { return step_; }
+    [[nodiscard]] std::size_t sites() const override { return pipe_.movers.size(); }
+    [[nodiscard]] std::string serialise() const override {
+        ByteWriter w;
+        w.put(step_);
+        w.put(crowded_);
+        w.put_array(pipe_.movers.data(), pipe_.movers.size());
+        w.put_array(pipe_.resting.data(), pipe_.resting.size());
+        statistics_.save(w);
+        return w.bytes();
+    }
+    void restore(const std::string& state) override {
+        ByteReader r(state);
+        const auto step = r.get<std::int64_t>(), crowded = r.get<std::int64_t>();
+        CountedPipe read = pipe_;
+        r.get_array(read.movers);
+        r.get_array(read.resting);
+        if (read.movers.size() != sites() || read.resting.size() != sites())
+            fail(Exit::io, "the state is one of another pipe");
+        statistics_.load(r);
+        pipe_ = std::move(read);
+        step_ = step;
+        crowded_ = crowded;
+    }
+    [[nodiscard]] std::vector<Quantity> quantities() const override {
+        return {{"movers", "1", {pipe_.movers.begin(), pipe_.movers.end()}},
+                {"resting", "1", {pipe_.resting.begin(), pipe_.resting.end()}}};
+    }
+    [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override {
+        return {{"step", "1"},          {"particles", "1"}, {"moving", "1"},
+                {"flow", "sites/step"}, {"crowded", "1"},   {"window_density", "1/site"}};
+    }
+    [[nodiscard]] std::vector<double> log_row() const override {
+        double flow = 0;
+        for (std::int64_t y = 0; y < pipe_.width; ++y)
+            for (std::int64_t x = 0; x < pipe_.length; ++x) flow += momentum(x, y);
+        const auto particles = static_cast<double>(pipe_.particles());
+        return {static_cast<double>(step_),          particles,
+                static_cast<double>(pipe_.moving()), particles > 0 ? flow / particles : 0,
+                static_cast<double>(crowded_),       statistics_.window()};
+    }
+    [[nodiscard]] std::vector<Field> fields() const override {
+        Field density{"density",
+                      "particles per site",
+                      "",
+                      static_cast<std::size_t>(pipe_.length),
+                      static_cast<std::size_t>(pipe_.width),
+                      {},
+                      false,
+                      0};
+        for (std::int64_t y = 0; y < pipe_.width; ++y)
+            for (std::int64_t x = 0; x < pipe_.length; ++x) density.values.push_back(particles(x, y));
+        return {density};
+    }
+    [[nodiscard]] std::vector<Field> final_fields() const override { return statistics_.fields(); }
+    [[nodiscard]] std::vector<Table> final_tables() const override { return statistics_.tables(); }
+    [[nodiscard]] Facts facts() const override {
+        return {{"model", "pipe flow, any number of rest particles"},
+                {"lattice", fmt::format("{} x {} sites, triangular (bricks)", pipe_.length, pipe_.width)},
+                {"kernels", "site by site, on one thread; there is no vector kernel"}};
     }
 
 private:
-    void add_to_maps() {
-        row_particles_.resize(static_cast<std::size_t>(lattice_.rows), 0);
-        row_momentum_.resize(row_particles_.size(), 0);
-        constexpr double speed[] = {1, 0.5, -0.5, -1, -0.5, 0.5, 0};
-        std::vector<double> columns(static_cast<std::size_t>(lattice_.columns), 0);
-        for (int i = 0; i < rules_.planes(); ++i)
-            for (std::int32_t y = 0; y < lattice_.rows; ++y)
-                for (std::int32_t x = 0; x < lattice_.columns; ++x) {
-                    if (!lattice_.get(i, x, y)) continue;
-                    columns[static_cast<std::size_t>(x)] += 1.0 / lattice_.rows;
-                    row_particles_[static_cast<std::size_t>(y)] += 1;
-                    row_momentum_[static_cast<std::size_t>(y)] += speed[i];
-                }
-        map_.insert(map_.end(), columns.begin(), columns.end());
-        ++looks_;
+    [[nodiscard]] std::size_t at(std::int64_t x, std::int64_t y) const {
+        return static_cast<std::size_t>(y * pipe_.length + x);
     }
-    // Pieces of an eighth of the series, so that several are averaged.
-    [[nodiscard]] Spectrum density_spectrum() const {
-        return welch(series_, std::bit_floor(std::max<std::size_t>(series_.size() / 8, 1)));
+    [[nodiscard]] double particles(std::int64_t x, std::int64_t y) const {
+        return std::popcount(pipe_.movers[at(x, y)]) + pipe_.resting[at(x, y)];
+    }
+    [[nodiscard]] double momentum(std::int64_t x, std::int64_t y) const {
+        double sum = 0;
+        for (int i = 0; i < 6; ++i)
+            if ((pipe_.movers[at(x, y)] >> i & 1) != 0) sum += speed[i];
+        return sum;
+    }
+    void look() {
+        double inside = 0;
+        for (std::int64_t y = 0; y < pipe_.width; ++y)
+            for (std::int64_t x = 0; x < window_; ++x) inside += particles(x, y);
+        statistics_.add_window(inside / static_cast<double>(window_ * pipe_.width));
+        if (step_ % statistics_.map_every() == 0)
+            statistics_.add_to_maps([&](auto x, auto y) { return particles(x, y); },
+                                    [&](auto x, auto y) { return momentum(x, y); });
     }
 
-    std::int32_t window_;
-    std::int64_t map_every_, looks_ = 0;
-    std::vector<double> series_; // density of the window at every step
-    std::vector<double> map_;    // [times][columns]
-    std::vector<double> row_particles_, row_momentum_;
+    CountedPipe pipe_;
+    GasRules rules_;
+    std::int64_t window_;
+    PipeStatistics statistics_;
+    std::int64_t step_ = 0, crowded_ = 0;
 };
 
 } // namespace
@@ -161,9 +209,26 @@ std::unique_ptr<Model> make_pipe_flow(const scene::Scene& scene, const Means& me
     rules.roughness = sixteenths(s.roughness);
     const auto seed = static_cast<std::uint64_t>(scene.seed);
     rules.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+    const std::int64_t particles =
+        std::llround(s.density * static_cast<double>(s.length) * static_cast<double>(s.width));
+    if (s.variant == scene::PipeVariant::counted_rest) {
+        CountedPipe pipe(s.length, s.width);
+        put_particles(particles, s.length, s.width, 6, rules.seed,
+                      [&](std::int32_t x, std::int32_t y, int bit) {
+                          std::uint8_t& movers = pipe.movers[static_cast<std::size_t>(y * s.length + x)];
+                          const auto wanted = static_cast<std::uint8_t>(1 << bit);
+                          const bool is_free = (movers & wanted) == 0;
+                          movers |= wanted;
+                          return is_free;
+                      });
+        return std::make_unique<CountedPipeModel>(std::move(pipe), rules, s);
+    }
     GasLattice lattice(static_cast<std::int32_t>(s.length), static_cast<std::int32_t>(s.width));
-    fill(lattice, std::llround(s.density * static_cast<double>(s.length) * static_cast<double>(s.width)),
-         rules.seed);
+    put_particles(particles, s.length, s.width, 7, rules.seed, [&](std::int32_t x, std::int32_t y, int bit) {
+        const bool is_free = !lattice.get(bit, x, y);
+        lattice.set(bit, x, y, true);
+        return is_free;
+    });
     return std::make_unique<PipeFlowModel>(std::move(lattice), rules, means, s);
 }
 

@@ -55,15 +55,15 @@ bool same(const GasLattice& a, const GasLattice& b) {
     return true;
 }
 
-void expect_same_bits(const Case& c, int steps) {
+void expect_same_bits(const Case& c, int steps, double density = 0.3, bool active_tiles = false) {
     const GasRules rules = rules_of(c);
-    const GasLattice start = lattice_of(c, 0.3);
+    const GasLattice start = lattice_of(c, density);
     GasLattice expected = start;
     for (int t = 0; t < steps; ++t) reference::step(expected, rules, static_cast<std::uint32_t>(t));
     for (const simd::Isa isa : simd::available_isas())
         for (const int threads : {1, 2, 7}) {
             GasLattice lattice = start;
-            GasStepper stepper(lattice, rules, {isa, threads});
+            GasStepper stepper(lattice, rules, {isa, threads}, active_tiles);
             for (int t = 0; t < steps; ++t) stepper.step(lattice, static_cast<std::uint32_t>(t));
             EXPECT_TRUE(same(lattice, expected))
                 << simd::isa_name(isa) << " threads " << threads << " model " << static_cast<int>(c.model)
@@ -97,6 +97,16 @@ TEST(Gas, PipesOfEveryShapeAndProbability) {
         for (const double g : {0.0, 0.3, 1.0})
             for (const double b : {0.0, 1.0})
                 expect_same_bits({GasModel::pipe, 70, 3, true, false, false, p, g, b}, 4);
+}
+
+TEST(Gas, EmptySegmentsChangeNothing) {
+    for (const GasModel model : {GasModel::hpp, GasModel::fhp1, GasModel::fhp3})
+        for (const std::int32_t columns : {70, 512, 1300, 2048})
+            for (const double density : {0.0, 0.0003, 0.01}) {
+                expect_same_bits({model, columns, 66, false, false, false, 0, 0, 0}, 12, density, true);
+                expect_same_bits({model, columns, 35, true, false, true, 0, 0, 0.5}, 12, density, true);
+            }
+    expect_same_bits({GasModel::pipe, 1500, 9, true, false, false, 0.5, 0.5, 0.5}, 12, 0.001, true);
 }
 
 TEST(Gas, EmptyAndFullLatticesStay) {
