@@ -7,8 +7,9 @@
 
 namespace sandlane::simd {
 
-// Heights of `bytes` bytes. unit: a site topples once, else as often as its height allows.
-template <class Arch, int bytes, bool unit> struct PileSweeps {
+// Heights of `bytes` bytes. unit: a site topples once, else as often as its height allows. counting:
+// topplings of each site are added up.
+template <class Arch, int bytes, bool unit, bool counting = false> struct PileSweeps {
     using W = Words<Arch>;
     static constexpr int bits = 8 * bytes;
     static constexpr std::uint64_t one = bytes == 1 ? 0x0101010101010101ULL : 0x0001000100010001ULL;
@@ -17,6 +18,9 @@ template <class Arch, int bytes, bool unit> struct PileSweeps {
 
     static SANDLANE_INLINE W load(const std::uint8_t* from) {
         return xsimd::bitwise_cast<W>(xsimd::batch<std::uint8_t, Arch>::load_unaligned(from));
+    }
+    static SANDLANE_INLINE void store(std::uint8_t* to, const W& words) {
+        xsimd::bitwise_cast<xsimd::batch<std::uint8_t, Arch>>(words).store_unaligned(to);
     }
     // Topplings of each height.
     static SANDLANE_INLINE W topplings(const W& h) {
@@ -50,6 +54,8 @@ template <class Arch, int bytes, bool unit> struct PileSweeps {
                                     : all;
                 const std::uint8_t* from = v.from + tiles.first_row * v.stride + at;
                 std::uint8_t* to = v.to + tiles.first_row * v.stride + at;
+                [[maybe_unused]] std::uint8_t* count =
+                    counting ? v.odometer + tiles.first_row * v.stride + at : nullptr;
                 W below = topplings(load(from - v.stride)), h = load(from), own = topplings(h);
                 W sums(std::uint64_t{0}), change(std::uint64_t{0});
                 for (std::int32_t row = tiles.first_row; row < tiles.last_row; ++row) {
@@ -58,7 +64,11 @@ template <class Arch, int bytes, bool unit> struct PileSweeps {
                         (below + above) + (topplings(load(from - bytes)) + topplings(load(from + bytes)));
                     const W kept = unit ? h - left<2>(own) : h & W(3 * one);
                     const W now = (kept + in) & inner;
-                    xsimd::bitwise_cast<xsimd::batch<std::uint8_t, Arch>>(now).store_unaligned(to);
+                    store(to, now);
+                    if constexpr (counting) {
+                        store(count, load(count) + own);
+                        count += v.stride;
+                    }
                     sums = sums + halved(own);
                     change = change | (h ^ now);
                     below = own;

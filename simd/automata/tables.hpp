@@ -9,7 +9,7 @@
 
 namespace sandlane::simd {
 
-// ---- lattice gas (docs/physics.md 18)
+// ---- lattice gas (docs/automata.md 4)
 
 enum class GasModel { hpp, fhp1, fhp2, fhp3, pipe };
 inline constexpr int gas_models = 5;
@@ -64,7 +64,7 @@ struct GasTile {
 };
 using GasKernel = void (*)(const GasView&, const GasTile&, std::uint64_t* scratch);
 
-// ---- sandpile (docs/physics.md 17)
+// ---- sandpile (docs/automata.md 1)
 
 // Columns are cut into strips of 64 bytes and rows into bands; a tile is a strip of a band.
 inline constexpr std::int32_t strip_bytes = 64, band_rows = 8;
@@ -76,6 +76,8 @@ struct PileView {
     std::uint8_t* to;
     std::ptrdiff_t stride;      // bytes, of a row
     const std::uint64_t* inner; // of the last strip: the bits that belong to the lattice, 8 words
+    std::uint8_t*
+        odometer; // of site (0, 0): topplings are added to it; null for kernels that do not count them
     std::int32_t strips;
 };
 // One sweep of rows [first_row, last_row) of strips [first, last): all sites at once, from the old heights.
@@ -87,7 +89,7 @@ struct PileTiles {
 };
 using PileKernel = void (*)(const PileView&, const PileTiles&);
 
-// ---- ripples (docs/physics.md 19)
+// ---- ripples (docs/automata.md 3)
 
 inline constexpr std::ptrdiff_t ripple_pad = 8;
 
@@ -116,6 +118,7 @@ using CreepKernel = void (*)(const RippleView&, std::int32_t first, std::int32_t
 struct AutomataKernels {
     GasKernel gas[gas_models][gas_variants]; // null where a model has no such variant
     PileKernel pile[2][2];                   // heights of 1 or 2 bytes; full or unit topplings
+    PileKernel pile_odometer;                // 2 bytes, full
     SaltationKernel saltation[3];            // interpolated, whole, stochastic
     CreepKernel creep;
 };

@@ -1,4 +1,4 @@
-// Lattice gases: the lattice of bits, its rules, and the model (docs/physics.md 18).
+// Lattice gases: the lattice of bits, its rules, and the model (docs/automata.md 4).
 #pragma once
 
 #include "automata/model.hpp"

@@ -1,4 +1,4 @@
-// Heaps of grains with energy, dissipation and sticking (docs/physics.md 17.3), many at once.
+// Heaps of grains with energy, dissipation and sticking (docs/automata.md 2), many at once.
 #pragma once
 
 #include "automata/model.hpp"

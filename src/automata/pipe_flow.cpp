@@ -1,4 +1,4 @@
-// Granular flow in a pipe (docs/physics.md 18): with one rest particle per site, a lattice gas of bit planes;
+// Granular flow in a pipe (docs/automata.md 4): with one rest particle per site, a lattice gas of bit planes;
 // with any number of them, site by site.
 #include "automata/counted_pipe.hpp"
 #include "automata/gas.hpp"

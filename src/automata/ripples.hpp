@@ -1,4 +1,4 @@
-// Ripples of Nishimori and Ouchi (docs/physics.md 19): saltation along the wind, then creep, in numbers of
+// Ripples of Nishimori and Ouchi (docs/automata.md 3): saltation along the wind, then creep, in numbers of
 // 2^-32 that conserve the sand exactly, or in double precision.
 #pragma once
 

@@ -1,5 +1,6 @@
 #include "automata/sandpile.hpp"
 
+#include "automata/identity.hpp"
 #include "automata/reference/sandpile.hpp"
 #include "core/bytes.hpp"
 #include "core/error.hpp"
@@ -36,7 +37,8 @@ std::uint64_t PileLattice::grains() const {
 // ---- sweeps
 
 PileSweeper::PileSweeper(const PileLattice& lattice, const Means& means, bool active_tiles)
-    : means_(means), active_tiles_(active_tiles), strips_(static_cast<std::size_t>(lattice.strips)),
+    : means_(means), active_tiles_(active_tiles), large_(lattice.heights.size() > std::size_t{1} << 19),
+      strips_(static_cast<std::size_t>(lattice.strips)),
       bands_(static_cast<std::size_t>((lattice.rows + simd::band_rows - 1) / simd::band_rows)) {
     inner_.resize(simd::strip_bytes / 8, 0);
     const auto inside =
@@ -48,8 +50,8 @@ PileSweeper::PileSweeper(const PileLattice& lattice, const Means& means, bool ac
     visits_.resize(bands_);
 }
 
-std::uint64_t PileSweeper::sweep(PileLattice& lattice, bool unit) {
-    if (means_.isa != simd::Isa::scalar) return sweep_tiles(lattice, unit);
+std::uint64_t PileSweeper::sweep(PileLattice& lattice, bool unit, Column<std::uint8_t>* odometer) {
+    if (means_.isa != simd::Isa::scalar) return sweep_tiles(lattice, unit, odometer);
     reference::Pile pile(lattice.columns, lattice.rows);
     for (std::int32_t y = 0; y < lattice.rows; ++y)
         for (std::int32_t x = 0; x < lattice.columns; ++x) pile.at(x, y) = lattice.get(x, y);
@@ -57,13 +59,28 @@ std::uint64_t PileSweeper::sweep(PileLattice& lattice, bool unit) {
     for (std::int32_t y = 0; y < lattice.rows; ++y)
         for (std::int32_t x = 0; x < lattice.columns; ++x)
             lattice.set(x, y, static_cast<std::uint32_t>(pile.at(x, y)));
+    if (odometer != nullptr) {
+        std::size_t n = 0;
+        for (std::int32_t y = 0; y < lattice.rows; ++y)
+            for (std::int32_t x = 0; x < lattice.columns; ++x) {
+                std::uint8_t* count = odometer->data() + lattice.origin() + y * lattice.stride + 2 * x;
+                const auto sum = static_cast<std::uint32_t>((count[0] | count[1] << 8) + pile.topplings[n++]);
+                count[0] = static_cast<std::uint8_t>(sum);
+                count[1] = static_cast<std::uint8_t>(sum >> 8);
+            }
+    }
     return static_cast<std::uint64_t>(topplings);
 }
 
-std::uint64_t PileSweeper::sweep_tiles(PileLattice& lattice, bool unit) {
-    const simd::PileKernel kernel = simd::automata_kernels(means_.isa).pile[lattice.bytes - 1][unit ? 1 : 0];
+std::uint64_t PileSweeper::sweep_tiles(PileLattice& lattice, bool unit, Column<std::uint8_t>* odometer) {
+    const simd::AutomataKernels& kernels = simd::automata_kernels(means_.isa);
+    const simd::PileKernel kernel =
+        odometer != nullptr ? kernels.pile_odometer : kernels.pile[lattice.bytes - 1][unit ? 1 : 0];
     const simd::PileView view{lattice.heights.data() + lattice.origin(),
-                              lattice.other.data() + lattice.origin(), lattice.stride, inner_.data(),
+                              lattice.other.data() + lattice.origin(),
+                              lattice.stride,
+                              inner_.data(),
+                              odometer != nullptr ? odometer->data() + lattice.origin() : nullptr,
                               lattice.strips};
     const std::size_t wide = strips_ + 2;
     next_.fill(0);
@@ -102,6 +119,91 @@ std::uint64_t PileSweeper::sweep_tiles(PileLattice& lattice, bool unit) {
     visited_ = static_cast<double>(std::accumulate(visits_.begin(), visits_.end(), std::uint64_t{0})) /
                static_cast<double>(bands_ * strips_);
     return std::accumulate(topplings_.begin(), topplings_.end(), std::uint64_t{0});
+}
+
+namespace {
+
+constexpr std::size_t block_bands = 4; // of 8 rows, between two sweeps of a pair: a part of L2
+
+} // namespace
+
+// Each block takes its first sweep, with a row more on both sides, into a buffer, and the second from there.
+std::array<std::uint64_t, 2> PileSweeper::sweep_pair(PileLattice& lattice, bool unit,
+                                                     Column<std::uint8_t>* odometer) {
+    if (means_.isa == simd::Isa::scalar) {
+        const std::uint64_t first = sweep(lattice, unit, odometer);
+        return {first, sweep(lattice, unit, odometer)};
+    }
+    const simd::AutomataKernels& kernels = simd::automata_kernels(means_.isa);
+    const simd::PileKernel plain = kernels.pile[lattice.bytes - 1][unit ? 1 : 0],
+                           kernel = odometer != nullptr ? kernels.pile_odometer : plain;
+    const std::ptrdiff_t stride = lattice.stride, rows_between = block_bands * simd::band_rows + 2;
+    between_.resize(
+        static_cast<std::size_t>(stride * rows_between) * static_cast<std::size_t>(means_.threads), 0);
+    first_topplings_.resize(topplings_.size());
+    first_topplings_.fill(0);
+    topplings_.fill(0);
+    next_.fill(0);
+    for_tiles((bands_ + block_bands - 1) / block_bands, means_.threads, [&](std::size_t block) {
+        const std::ptrdiff_t thread = means_.threads > 1 ? thread_index() : 0;
+        const auto low = static_cast<std::int32_t>(block * block_bands) * simd::band_rows;
+        const auto high =
+            std::min(low + static_cast<std::int32_t>(block_bands) * simd::band_rows, lattice.rows);
+        std::uint8_t* between = between_.data() + thread * stride * rows_between; // row low - 1 first
+        const auto view = [&](const std::uint8_t* from, std::uint8_t* to, std::int32_t row) {
+            return simd::PileView{from,
+                                  to,
+                                  stride,
+                                  inner_.data(),
+                                  odometer != nullptr ? odometer->data() + lattice.origin() + row * stride
+                                                      : nullptr,
+                                  lattice.strips};
+        };
+        const simd::PileView into = view(lattice.heights.data() + lattice.origin() + (low - 1) * stride,
+                                         between + simd::strip_bytes, low - 1),
+                             out = view(between + simd::strip_bytes + stride,
+                                        lattice.other.data() + lattice.origin() + low * stride, low);
+        const auto run = [&](simd::PileKernel k, const simd::PileView& v, std::int32_t first,
+                             std::int32_t last, std::uint64_t* topplings, std::uint8_t* changed) {
+            k(v, {first, last, 0, lattice.strips, topplings, changed});
+        };
+        std::vector<std::uint64_t> unwanted(strips_);
+        std::vector<std::uint8_t> unseen(strips_);
+        const auto edge = [&](std::int32_t row, std::int32_t at) { // of the neighbouring blocks
+            if (row < 0 || row >= lattice.rows)
+                std::fill_n(between + at * stride, stride, std::uint8_t{0});
+            else
+                run(plain, into, at, at + 1, unwanted.data(), unseen.data());
+        };
+        edge(low - 1, 0);
+        edge(high, high - low + 1);
+        const auto for_bands = [&](const auto& body) {
+            for (std::int32_t row = low; row < high; row += simd::band_rows)
+                body(row - low, std::min(row + simd::band_rows, high) - low,
+                     static_cast<std::size_t>(row / simd::band_rows));
+        };
+        const auto flags = [&](std::size_t band) { return next_.data() + (band + 1) * (strips_ + 2) + 1; };
+        for_bands([&](std::int32_t first, std::int32_t last, std::size_t band) {
+            run(kernel, into, first + 1, last + 1, first_topplings_.data() + band * strips_, flags(band));
+        });
+        for_bands([&](std::int32_t first, std::int32_t last, std::size_t band) {
+            run(kernel, out, first, last, topplings_.data() + band * strips_, flags(band));
+        });
+    });
+    lattice.heights.swap(lattice.other);
+    changed_.swap(next_);
+    visited_ = active_tiles_ ? active_share() : 1;
+    return {std::accumulate(first_topplings_.begin(), first_topplings_.end(), std::uint64_t{0}),
+            std::accumulate(topplings_.begin(), topplings_.end(), std::uint64_t{0})};
+}
+
+// Of the tiles that changed in the last pass; near enough to decide how to go on.
+double PileSweeper::active_share() const {
+    std::size_t sum = 0;
+    for (std::size_t band = 0; band < bands_; ++band)
+        for (std::size_t strip = 0; strip < strips_; ++strip)
+            sum += changed_[(band + 1) * (strips_ + 2) + strip + 1];
+    return static_cast<double>(sum) / static_cast<double>(bands_ * strips_);
 }
 
 // ---- single grains
@@ -155,6 +257,8 @@ Avalanche AvalancheRunner::drop(PileLattice& lattice, std::int32_t x, std::int32
 
 namespace {
 
+constexpr std::int32_t smallest_search = 32; // sites of a side that need no smaller lattice
+
 int bytes_for(const scene::Sandpile& s) {
     return s.height + s.centre > 255 ? 2 : 1;
 }
@@ -177,20 +281,35 @@ SandpileModel::SandpileModel(const scene::Scene& scene, const Means& means)
 
 void SandpileModel::run(std::int64_t steps) {
     if (pile_.drive != scene::PileDrive::none && !stable_) relax();
-    for (std::int64_t n = 0; n < steps && !finished(); ++n) {
-        if (pile_.drive == scene::PileDrive::none)
-            sweep();
+    const std::int64_t last = step_ + steps;
+    while (step_ < last && !finished()) {
+        if (pile_.start == scene::PileStart::doubled)
+            search();
+        else if (pile_.drive == scene::PileDrive::none)
+            sweep(last - step_);
         else
             drop_grain();
     }
 }
 
-void SandpileModel::sweep() {
-    const std::uint64_t topplings = sweeper_.sweep(lattice_, pile_.sweep == scene::PileSweep::unit);
+void SandpileModel::sweep(std::int64_t most) {
+    const bool unit = pile_.sweep == scene::PileSweep::unit;
+    if (most < 2 || !sweeper_.pairs_pay()) {
+        count_sweep(sweeper_.sweep(lattice_, unit));
+        return;
+    }
+    for (const std::uint64_t topplings : sweeper_.sweep_pair(lattice_, unit))
+        if (!count_sweep(topplings)) return;
+}
+
+// False if no site toppled: the pile is stable, or half way to the identity.
+bool SandpileModel::count_sweep(std::uint64_t topplings) {
     topplings_ += topplings;
     if (topplings > 0) {
         ++step_;
-    } else if (pile_.start == scene::PileStart::identity && phase_ == 0) {
+        return true;
+    }
+    if (pile_.start == scene::PileStart::identity && phase_ == 0) {
         phase_ = 1;
         for (std::int32_t y = 0; y < lattice_.rows; ++y)
             for (std::int32_t x = 0; x < lattice_.columns; ++x) lattice_.set(x, y, 6 - lattice_.get(x, y));
@@ -198,6 +317,26 @@ void SandpileModel::sweep() {
     } else {
         stable_ = true;
     }
+    return false;
+}
+
+// A step is a lattice of twice the size.
+void SandpileModel::search() {
+    std::vector<std::pair<std::int32_t, std::int32_t>> sizes = {{lattice_.columns, lattice_.rows}};
+    while (std::max(sizes.back().first, sizes.back().second) > smallest_search)
+        sizes.push_back({(sizes.back().first + 1) / 2, (sizes.back().second + 1) / 2});
+    const auto level = static_cast<std::size_t>(step_);
+    const auto [columns, rows] = sizes[sizes.size() - 1 - level];
+    IdentitySearch search(stretched(potential_, columns, rows, means_.threads), means_, pile_.active_tiles);
+    while (search.sweep()) {
+    }
+    topplings_ += search.topplings();
+    potential_ = search.potential();
+    ++step_;
+    stable_ = level + 1 == sizes.size();
+    if (!stable_) return;
+    for (std::int32_t y = 0; y < rows; ++y)
+        for (std::int32_t x = 0; x < columns; ++x) lattice_.set(x, y, search.lattice().get(x, y));
 }
 
 void SandpileModel::relax() {
@@ -236,6 +375,11 @@ std::string SandpileModel::serialise() const {
         w.put_array(lattice_.heights.data() + lattice_.origin() + y * lattice_.stride,
                     static_cast<std::size_t>(lattice_.columns * lattice_.bytes));
     for (const LogBins& bins : statistics_) bins.save(w);
+    if (pile_.start == scene::PileStart::doubled) {
+        w.put(potential_.columns);
+        w.put(potential_.rows);
+        w.put_array(potential_.w.data(), potential_.w.size());
+    }
     return w.bytes();
 }
 
@@ -254,6 +398,14 @@ void SandpileModel::restore(const std::string& state) {
         std::copy(row.begin(), row.end(), read.heights.data() + read.origin() + y * read.stride);
     }
     for (LogBins& bins : statistics_) bins.load(r);
+    if (pile_.start == scene::PileStart::doubled) {
+        Potential p{r.get<std::int32_t>(), r.get<std::int32_t>(), {}};
+        r.get_array(p.w);
+        if (p.columns < 0 || p.columns > lattice_.columns || p.rows < 0 || p.rows > lattice_.rows ||
+            p.w.size() != static_cast<std::size_t>(p.columns) * static_cast<std::size_t>(p.rows))
+            fail(Exit::io, "the state is one of another lattice");
+        potential_ = std::move(p);
+    }
     read.other = read.heights;
     lattice_ = std::move(read);
     sweeper_.visit_all();
@@ -272,15 +424,27 @@ std::vector<Quantity> SandpileModel::quantities() const {
 }
 
 std::vector<analysis::LogColumn> SandpileModel::log_columns() const {
-    return {{"step", "1"}, {"grains", "1"}, {"topplings", "1"}, {"visited_tiles", "1"}, {"mean_size", "1"}};
+    return {{"step", "1"}, {"grains", "1"}, {"topplings", "1"}, {"mean_size", "1"}};
 }
 
 std::vector<double> SandpileModel::log_row() const {
     return {static_cast<double>(step_), static_cast<double>(lattice_.grains()),
-            static_cast<double>(topplings_), sweeper_.visited(), statistics_[0].mean()};
+            static_cast<double>(topplings_), statistics_[0].mean()};
 }
 
 std::vector<Field> SandpileModel::fields() const {
+    if (!potential_.w.empty() && !stable_) { // the identity of a smaller lattice
+        Field field{"height",
+                    "grains",
+                    "",
+                    static_cast<std::size_t>(potential_.columns),
+                    static_cast<std::size_t>(potential_.rows),
+                    {},
+                    false,
+                    3};
+        for (const std::int32_t h : toppling_matrix(potential_)) field.values.push_back(h);
+        return {field};
+    }
     return {{"height", "grains", "", static_cast<std::size_t>(lattice_.columns),
              static_cast<std::size_t>(lattice_.rows), quantities()[0].values, false, stable_ ? 3.0 : 0.0}};
 }

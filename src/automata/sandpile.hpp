@@ -1,4 +1,4 @@
-// The sandpile of Bak, Tang and Wiesenfeld (docs/physics.md 17): sweeps over a lattice in tiles, and
+// The sandpile of Bak, Tang and Wiesenfeld (docs/automata.md 1): sweeps over a lattice in tiles, and
 // avalanches of single grains.
 #pragma once
 
@@ -7,6 +7,7 @@
 #include "core/column.hpp"
 #include "core/rng.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -53,20 +54,29 @@ class PileSweeper {
 public:
     PileSweeper(const PileLattice& lattice, const Means& means, bool active_tiles);
 
-    std::uint64_t sweep(PileLattice& lattice, bool unit);     // topplings
+    // Returns the topplings. odometer: those of each site are added to it, laid out as heights of two bytes.
+    std::uint64_t sweep(PileLattice& lattice, bool unit, Column<std::uint8_t>* odometer = nullptr);
+    // Two sweeps in one pass over the memory, their topplings: where every tile is visited anyway.
+    std::array<std::uint64_t, 2> sweep_pair(PileLattice& lattice, bool unit,
+                                            Column<std::uint8_t>* odometer = nullptr);
+    // Whether it pays: the lattice does not fit a cache, and few tiles were quiet in the last sweep.
+    [[nodiscard]] bool pairs_pay() const { return large_ && visited_ > 0.8; }
     void visit_all() { changed_.fill(1); }                    // after heights were set
     [[nodiscard]] double visited() const { return visited_; } // share of the tiles in the last sweep
 
 private:
-    std::uint64_t sweep_tiles(PileLattice& lattice, bool unit);
+    [[nodiscard]] double active_share() const;
+    std::uint64_t sweep_tiles(PileLattice& lattice, bool unit, Column<std::uint8_t>* odometer);
 
     Means means_;
-    bool active_tiles_;
+    bool active_tiles_, large_;
     std::size_t strips_, bands_;
-    Column<std::uint64_t> inner_;         // mask of the last strip
-    Column<std::uint8_t> changed_, next_; // [bands][strips], between borders of zeros
-    Column<std::uint64_t> topplings_;     // [bands][strips]
-    std::vector<std::uint64_t> visits_;   // by band
+    Column<std::uint64_t> inner_;           // mask of the last strip
+    Column<std::uint8_t> changed_, next_;   // [bands][strips], between borders of zeros
+    Column<std::uint64_t> topplings_;       // [bands][strips]
+    Column<std::uint64_t> first_topplings_; // of a pair
+    Column<std::uint8_t> between_;          // [threads]: rows of a block between the two sweeps
+    std::vector<std::uint64_t> visits_;     // by band
     double visited_ = 1;
 };
 
@@ -83,6 +93,19 @@ private:
     std::vector<std::ptrdiff_t> unstable_, next_;
     Column<std::uint32_t> toppled_; // number of the last avalanche that a site took part in
     std::uint32_t number_ = 0;
+};
+
+// Whole numbers on a lattice, zero outside.
+struct Potential {
+    std::int32_t columns = 0, rows = 0;
+    std::vector<std::int32_t> w; // row by row
+
+    [[nodiscard]] std::int32_t at(std::int32_t x, std::int32_t y) const {
+        const bool inside = x >= 0 && x < columns && y >= 0 && y < rows;
+        return inside ? w[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
+                          static_cast<std::size_t>(x)]
+                      : 0;
+    }
 };
 
 class SandpileModel final : public Model {
@@ -108,7 +131,9 @@ public:
     [[nodiscard]] std::uint64_t topplings() const { return topplings_; }
 
 private:
-    void sweep();
+    void sweep(std::int64_t most);
+    bool count_sweep(std::uint64_t topplings);
+    void search();
     void drop_grain();
     void relax();
 
@@ -121,6 +146,7 @@ private:
     std::int64_t step_ = 0;
     std::uint64_t topplings_ = 0;
     bool stable_ = false;
+    Potential potential_;             // start "identity-doubled": of the last identity found
     int phase_ = 0;                   // identity: 1 when 6 - (6)^ relaxes
     std::vector<LogBins> statistics_; // of size, area, duration, radius
 };

@@ -1,4 +1,4 @@
-// Scenes of cellular automata (docs/physics.md 17): one struct for each table. Lengths in sites, times in
+// Scenes of cellular automata (docs/automata.md): one struct for each table. Lengths in sites, times in
 // steps.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace sandlane::scene {
 
 // Where the grains of a sandpile are at the start: the same height everywhere, or the first half of what
 // makes the identity of the group of recurrent states, e = (6 - (6)^)^.
-enum class PileStart { uniform, identity };
+enum class PileStart { uniform, identity, doubled };
 // What a step is: one sweep over all sites, or one grain dropped on a random site, on one after the other, or
 // on the centre, and the whole avalanche after it.
 enum class PileDrive { none, random, ordered, centre };

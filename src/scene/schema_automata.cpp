@@ -88,9 +88,11 @@ const Table<Sandpile>& sandpile_table() {
             .required()
             .integer("rows", &Sandpile::rows, sites, "rows")
             .required()
-            .choice("start", &Sandpile::start, {"uniform", "identity"},
+            .choice("start", &Sandpile::start, {"uniform", "identity", "identity-doubled"},
                     "all sites of one height; or the construction of the identity of the group of recurrent "
-                    "states: relax 6 grains everywhere, relax again what is missing from them")
+                    "states: relax 6 grains everywhere, relax again what is missing from them; or that "
+                    "identity from "
+                    "those of lattices of half the size, a step for each, which is much faster")
             .integer("height", &Sandpile::height, between(0, 65535), "uniform: grains of each site")
             .integer("centre", &Sandpile::centre, between(0, 65535),
                      "uniform: more grains on the site in the middle")

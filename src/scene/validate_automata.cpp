@@ -65,9 +65,9 @@ void validate_sandpile(const Scene& scene, const std::string& file) {
         fail(Exit::invalid_input,
              "{}: sandpile.centre: {} grains on {} are more than a site can hold; allowed: 65535 together",
              file, s.centre, s.height);
-    if (s.start == PileStart::identity && (s.height != 0 || s.centre != 0 || s.drive != PileDrive::none))
+    if (s.start != PileStart::uniform && (s.height != 0 || s.centre != 0 || s.drive != PileDrive::none))
         fail(Exit::invalid_input,
-             "{}: sandpile.start: \"identity\" knows its heights; leave out height, centre and drive", file);
+             "{}: sandpile.start: an identity knows its heights; leave out height, centre and drive", file);
     if (s.drive != PileDrive::none && s.steps == 0)
         fail(Exit::invalid_input, "{}: sandpile.steps: is missing; a driven pile needs a number of grains",
              file);

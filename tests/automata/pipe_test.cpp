@@ -60,10 +60,10 @@ TEST(CountedPipe, AllCollisionsStop) {
 
 TEST(CountedPipe, RestParticlesHopApart) {
     CountedPipe flow(20, 10);
-    flow.resting[105] = 60;
+    flow.resting[105] = 6;
     EXPECT_EQ(step(flow, rules(0, 0, 0), 0), 0);
     EXPECT_EQ(*std::max_element(flow.resting.begin(), flow.resting.end()), 1);
-    EXPECT_EQ(flow.particles(), 60);
+    EXPECT_EQ(flow.particles(), 6);
 }
 
 TEST(Spectrum, OfASine) {

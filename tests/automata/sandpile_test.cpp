@@ -73,6 +73,21 @@ TEST(Sandpile, IdentitiesOfEveryKernel) {
         }
 }
 
+// Identities found from those of smaller lattices are the same.
+TEST(Sandpile, DoubledIdentities) {
+    for (const auto& [columns, rows] : {std::pair{64, 64}, {65, 65}, {100, 40}, {33, 129}, {5, 5}, {70, 1}})
+        for (const simd::Isa isa : {simd::Isa::scalar, simd::available_isas().back()}) {
+            if (isa == simd::Isa::scalar && columns * rows > 3000) continue;
+            SandpileModel model(
+                pile_scene(
+                    fmt::format("columns = {}\nrows = {}\nstart = \"identity-doubled\"\n", columns, rows)),
+                {isa, 2});
+            run_to_rest(model);
+            EXPECT_EQ(heights_of(model.lattice()), identity(rows, columns).height)
+                << columns << " x " << rows;
+        }
+}
+
 // e + e relaxes to e.
 TEST(Sandpile, IdentityIsIdempotent) {
     const Pile e = identity(20, 31);
@@ -210,6 +225,31 @@ TEST(Sandpile, SweepsOfFullHeightsAreTheReference) {
                                   static_cast<std::uint64_t>(reference::sweep(pile, unit)));
                         EXPECT_EQ(heights_of(lattice), pile.height) << simd::isa_name(isa) << columns;
                     }
+                }
+}
+
+TEST(Sandpile, PairsOfSweepsAreTwoSweeps) {
+    for (const int bytes : {1, 2})
+        for (const bool unit : {false, true})
+            for (const std::int32_t rows : {1, 7, 31, 32, 33, 70})
+                for (const simd::Isa isa : simd::available_isas()) {
+                    PileLattice lattice(150, rows, bytes);
+                    Pile pile(150, rows);
+                    for (std::int32_t y = 0; y < rows; ++y)
+                        for (std::int32_t x = 0; x < 150; ++x) {
+                            pile.at(x, y) = (x * 7 + y * 13) % 11;
+                            lattice.set(x, y, static_cast<std::uint32_t>(pile.at(x, y)));
+                        }
+                    PileSweeper sweeper(lattice, {isa, 3}, true);
+                    for (int n = 0; n < 6; ++n) {
+                        const auto found = sweeper.sweep_pair(lattice, unit);
+                        EXPECT_EQ(found[0], static_cast<std::uint64_t>(reference::sweep(pile, unit)));
+                        EXPECT_EQ(found[1], static_cast<std::uint64_t>(reference::sweep(pile, unit)));
+                        EXPECT_EQ(heights_of(lattice), pile.height) << simd::isa_name(isa) << rows;
+                    }
+                    sweeper.sweep(lattice, unit);
+                    reference::sweep(pile, unit);
+                    EXPECT_EQ(heights_of(lattice), pile.height);
                 }
 }
 
