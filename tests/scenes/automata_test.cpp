@@ -118,7 +118,8 @@ TEST(SlowShippedAutomata, PlateShedsVortices) {
     };
     const double noise = across();
     model->run(1500);
-    EXPECT_GT(across(), 3 * noise);
+    // A sum over 32 cells scatters by an eighth.
+    EXPECT_GT(across(), 1.8 * noise);
     EXPECT_GT(logged(*model, "flow"), 0.1);
 }
 
