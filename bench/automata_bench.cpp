@@ -119,12 +119,8 @@ void add_all() {
                         ->UseRealTime();
                 };
                 for (const GasCase& c : gases) {
-                    const std::int32_t columns = c.model == GasModel::pipe && !large ? 1 << 15
-                                                 : large                             ? 1 << 15
-                                                                                     : 1024;
-                    const std::int32_t rows = c.model == GasModel::pipe && !large ? 16
-                                              : large                             ? 1 << 14
-                                                                                  : 512;
+                    const std::int32_t columns = large ? 1 << 15 : 1 << 12;
+                    const std::int32_t rows = large ? 1 << 14 : 128;
                     add(c.name, [=](benchmark::State& s) { gas(s, c, columns, rows, isa, threads); });
                 }
                 for (const int bytes : {1, 2})

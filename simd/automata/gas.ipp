@@ -112,6 +112,9 @@ template <class Arch> struct GasRows {
         for (std::int32_t w = range.first; w < range.last; w += lanes) {
             W n[gas_planes];
             for (int i = 0; i < planes; ++i) n[i] = load_words<Arch>(v.plane[i] + start + w);
+            // A row of a plane is often no longer than a page, where the processor stops to read ahead.
+            if (w % segment_words == 0)
+                for (int i = 0; i < planes; ++i) __builtin_prefetch(v.plane[i] + start + v.stride + w, 1);
             const W index = lane + W(static_cast<std::uint64_t>(w));
             W xi = alternating;
             if constexpr (variant != GasVariant::alternating && model != GasModel::hpp)

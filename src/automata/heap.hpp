@@ -37,7 +37,7 @@ public:
 
 private:
     [[nodiscard]] std::size_t place(int side, std::int64_t x) const {
-        return static_cast<std::size_t>(side == 1 && x > 0 ? columns_ + x : x);
+        return static_cast<std::size_t>(side == 1 && x > 0 ? columns_ - 1 + x : x);
     }
     bool roll(int side, std::int64_t x, double energy, std::uint32_t grain);
     void avalanche(std::uint32_t grain);

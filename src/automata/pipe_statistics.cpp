@@ -1,5 +1,6 @@
 #include "automata/pipe_statistics.hpp"
 
+#include "automata/ripples.hpp"
 #include "automata/spectrum.hpp"
 #include "core/error.hpp"
 
@@ -70,6 +71,20 @@ std::vector<Table> PipeStatistics::tables() const {
         const Line line = power_law(s, s.frequency[peak], highest_of_fit);
         fit.rows.push_back({line.slope, line.error, s.frequency[peak], highest_of_fit});
     }
+    // S(k) of the particles of each place, averaged over times of the map.
+    Table structure{"structure-factor", {{"mode", "1"}, {"wavelength", "1"}, {"S", "1"}}, {}, 1, 2, true};
+    constexpr std::size_t looks = 32; // as mode_powers takes
+    const std::size_t times = map_.size() / static_cast<std::size_t>(length_);
+    double density = 0; // particles of a place, summed over places
+    for (const double n : map_) density += n / static_cast<double>(times);
+    if (times >= looks && density > 0) {
+        const std::vector<double> powers = mode_powers(map_, static_cast<std::int32_t>(length_),
+                                                       static_cast<std::int32_t>(times / looks * looks));
+        for (std::size_t m = 0; m < powers.size(); ++m)
+            structure.rows.push_back(
+                {static_cast<double>(m + 1), static_cast<double>(length_) / static_cast<double>(m + 1),
+                 powers[m] * static_cast<double>(width_) / (static_cast<double>(looks) * density)});
+    }
     Table profile{"profile", {{"row", "1"}, {"density", "1/site"}, {"velocity", "sites/step"}}, {}, 0, 2,
                   false};
     for (std::size_t y = 0; y < row_particles_.size(); ++y)
@@ -77,7 +92,7 @@ std::vector<Table> PipeStatistics::tables() const {
             {static_cast<double>(y),
              row_particles_[y] / (static_cast<double>(looks_) * static_cast<double>(length_)),
              row_particles_[y] > 0 ? row_momentum_[y] / row_particles_[y] : 0});
-    return {spectrum, fit, profile};
+    return {spectrum, fit, structure, profile};
 }
 
 } // namespace sandlane::automata

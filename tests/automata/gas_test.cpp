@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 
 namespace sandlane::automata {
@@ -259,6 +260,63 @@ TEST(Gas, GoesToFermiDirac) {
                         5 * std::sqrt(sites * n * (1 - n)))
                 << "model " << static_cast<int>(model) << " direction " << i;
         }
+    }
+}
+
+// ---- viscosity
+
+// A shear wave u_x ~ sin(k y) decays as exp(-nu k^2 t); rows are sqrt(3)/2 apart. In two dimensions the
+// viscosity is above that of Boltzmann by a logarithm of the size (long-time tails), relatively more the
+// smaller it is.
+TEST(Gas, ShearWavesDecayWithTheViscosity) {
+    struct Expected {
+        GasModel model;
+        double viscosity, most; // of Boltzmann at d = 0.2; times as much at most
+    };
+    const Expected all[] = {
+        {GasModel::fhp1, .68880208, 1.1}, {GasModel::fhp2, .26877520, 1.2}, {GasModel::fhp3, .14816434, 1.3}};
+    constexpr std::int32_t columns = 8192, rows = 64;
+    for (const auto& [model, viscosity, most] : all) {
+        const Case c{model, columns, rows, false, false, false, 0, 0, 0};
+        const GasRules rules = rules_of(c);
+        GasLattice lattice(columns, rows);
+        const int bits = rules.planes();
+        const double density = 0.2 * bits;
+        for (std::int32_t y = 0; y < rows; ++y) {
+            const auto n = fermi_dirac(density, 0.1 * density * std::sin(2 * M_PI * y / rows), 0, bits);
+            for (std::int32_t x = 0; x < columns; ++x)
+                for (int i = 0; i < bits; ++i) {
+                    const PhiloxCounter r =
+                        philox({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                                static_cast<std::uint32_t>(i), 0},
+                               {7, 7});
+                    if (r[0] * 0x1p-32 < n[static_cast<std::size_t>(i)]) lattice.set(i, x, y, true);
+                }
+        }
+        const auto amplitude = [&] {
+            constexpr double c_x[] = {1, 0.5, -0.5, -1, -0.5, 0.5};
+            double sum = 0;
+            for (int i = 0; i < 6; ++i)
+                for (std::int32_t y = 0; y < rows; ++y) {
+                    const std::uint64_t* words = lattice.plane[static_cast<std::size_t>(i)].data() +
+                                                 std::ptrdiff_t{y} * lattice.stride;
+                    std::int64_t count = 0;
+                    for (std::int32_t w = 0; w < lattice.words; ++w) count += std::popcount(words[w]);
+                    sum += c_x[i] * static_cast<double>(count) * std::sin(2 * M_PI * y / rows);
+                }
+            return sum;
+        };
+        GasStepper stepper(lattice, rules, {simd::available_isas().back(), 1});
+        const double k = 2 * M_PI / (rows * std::sqrt(0.75)), half_life = std::log(2) / (viscosity * k * k);
+        std::uint32_t t = 0;
+        for (; t < 40; ++t) stepper.step(lattice, t); // to the local equilibrium
+        const double before = amplitude();
+        const auto last = t + static_cast<std::uint32_t>(half_life);
+        for (; t < last; ++t) stepper.step(lattice, t);
+        const double found = std::log(before / amplitude()) / (k * k * std::floor(half_life));
+        // Thermal noise of both amplitudes: 1 % and 2 %, over a logarithm of 2.
+        EXPECT_GT(found, 0.92 * viscosity) << static_cast<int>(model);
+        EXPECT_LT(found, most * viscosity) << static_cast<int>(model);
     }
 }
 

@@ -135,6 +135,18 @@ TEST(SlowPipe, ElasticFlowIsAParabola) {
         EXPECT_NEAR(y[i], line.offset + line.slope * x[i], 0.08 * line.offset);
 }
 
+// Particles that do not interact are spread at random: S(k) = 1 - density of a bit (at most one particle on
+// each).
+TEST(Pipe, StructureFactorOfTheStart) {
+    const auto model = flow("length = 64\nwidth = 500\ndensity = 0.7\nsteps = 0\n");
+    model->run(40); // equilibrium without gravity and dissipation stays one
+    const auto tables = model->final_tables();
+    const Table& s = named(tables, "structure-factor");
+    double mean = 0;
+    for (const std::vector<double>& row : s.rows) mean += row[2] / static_cast<double>(s.rows.size());
+    EXPECT_NEAR(mean, 0.9, 0.15); // 32 modes, 32 correlated times
+}
+
 // Published: power ~ f^-4/3 with dissipation; accepted [1.1, 1.6]. White without.
 TEST(SlowPipe, DensityWavesHaveAPowerLaw) {
     const auto exponent = [](const char* dissipation) {
