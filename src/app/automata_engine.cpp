@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 #include <numeric>
 
@@ -44,11 +45,15 @@ std::int64_t steps_of(const scene::Scene& s) {
     }
 }
 
+bool drops_grains(const scene::Scene& s) {
+    return s.method == scene::Engine::sandpile && s.sandpile.drive != scene::PileDrive::none;
+}
+
 Words words_of(const scene::Scene& s) {
-    const bool grains = s.method == scene::Engine::heap ||
-                        (s.method == scene::Engine::sandpile && s.sandpile.drive != scene::PileDrive::none);
-    const bool sweeps = s.method == scene::Engine::sandpile && !grains;
-    return {"site", "sites", "sites", "site-updates", grains ? "grains" : sweeps ? "sweeps" : "steps", ""};
+    if (s.method == scene::Engine::heap) return {"heap", "heaps", "heaps", "grains", "grains", ""};
+    if (drops_grains(s)) return {"pile", "piles", "piles", "grains", "grains", ""};
+    const bool sweeps = s.method == scene::Engine::sandpile;
+    return {"site", "sites", "sites", "site-updates", sweeps ? "sweeps" : "steps", ""};
 }
 
 std::string step_name(const Words& words) {
@@ -155,7 +160,8 @@ public:
                    ? static_cast<double>(steps)
                    : 10.0 * static_cast<double>(std::max(scene_.sandpile.columns, scene_.sandpile.rows));
     }
-    [[nodiscard]] std::size_t size() const override { return model_->sites(); }
+    // A grain is dropped on one pile, whatever its size.
+    [[nodiscard]] std::size_t size() const override { return drops_grains(scene_) ? 1 : model_->sites(); }
 
     [[nodiscard]] Hash128 state_hash() const override { return model_->state_hash(); }
     [[nodiscard]] std::string serialise() const override { return model_->serialise(); }
@@ -201,7 +207,9 @@ public:
                            json_text(scene::engine_choices()[static_cast<std::size_t>(scene_.method)]));
     }
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> report_rows() const override {
-        return {{"Sites", std::to_string(size())}, {"Steps", fmt::format("{} {}", step(), words_.steps)}};
+        std::string things = words_.things;
+        things[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(things[0])));
+        return {{things, std::to_string(size())}, {"Steps", fmt::format("{} {}", step(), words_.steps)}};
     }
 
 private:

@@ -81,6 +81,19 @@ TEST(Gas, PlanesAreTheReference) {
         }
 }
 
+// Many more threads than tiles or processors.
+TEST(Gas, ManyThreadsChangeNothing) {
+    const Case c{GasModel::fhp2, 200, 130, false, false, false, 0, 0, 0};
+    GasLattice one = lattice_of(c, 0.3), many = one;
+    GasStepper stepper(one, rules_of(c), {simd::available_isas().back(), 1}),
+        crowd(many, rules_of(c), {simd::available_isas().back(), 64});
+    for (std::uint32_t t = 0; t < 10; ++t) {
+        stepper.step(one, t);
+        crowd.step(many, t);
+    }
+    EXPECT_TRUE(same(one, many));
+}
+
 TEST(Gas, TilesOfRowsMeet) {
     for (const GasModel model : {GasModel::hpp, GasModel::fhp1, GasModel::fhp3}) {
         expect_same_bits({model, 70, 64, false, false, false, 0, 0, 0}, 4);

@@ -101,6 +101,39 @@ TEST(Ripples, GrowthFactorsInThePlane) {
     }
 }
 
+TEST(Ripples, FastestModes) {
+    struct Expected {
+        RippleRules rules;
+        std::int64_t columns, mode;
+        double size;
+        bool plane;
+    };
+    const Expected all[] = {{rules(.1, 1, 10.5, .4), 256, 18, 1.0036236942, false},
+                            {rules(.1, 2, 7.5, .6), 256, 24, .9992195998, false},
+                            {rules(.6, 2, 7.3, .8), 100, 10, 1.56424143, true}};
+    for (const Expected& e : all) {
+        double best = 0;
+        std::int64_t mode = 0;
+        for (std::int64_t m = 1; m <= e.columns / 2; ++m) {
+            const double k = wave(m, 1, e.columns);
+            const double creep = e.plane ? 1 + e.rules.creep * (2 * (std::cos(k) - 1) / 3)
+                                         : 1 + e.rules.creep * (std::cos(k) - 1);
+            if (const double g = std::abs(growth(e.rules, k, creep)); g > best) {
+                best = g;
+                mode = m;
+            }
+        }
+        EXPECT_EQ(mode, e.mode);
+        EXPECT_NEAR(best, e.size, 1e-8);
+    }
+    // A flat bed that stays flat.
+    const RippleRules stable = rules(.05, .5, 20.5, .4);
+    for (std::int64_t m = 1; m <= 128; ++m) {
+        const double k = wave(m, 1, 256);
+        EXPECT_LT(std::abs(growth(stable, k, 1 + stable.creep * (std::cos(k) - 1))), 1);
+    }
+}
+
 TEST(Ripples, WavelengthThatWins) {
     constexpr std::int64_t n = 256;
     std::vector<double> h(n);
