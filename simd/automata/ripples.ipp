@@ -17,13 +17,6 @@ template <class Arch> struct RippleRows {
     static SANDLANE_INLINE void store(std::int64_t* to, const W& value) {
         xsimd::bitwise_cast<xsimd::batch<std::int64_t, Arch>>(value).store_unaligned(to);
     }
-    // Whole numbers below 2^51 and doubles, exactly: the bits of 1.5 2^52 plus the number.
-    static SANDLANE_INLINE D to_double(const W& whole) {
-        return xsimd::bitwise_cast<D>(whole + W(0x4338000000000000ULL)) - D(0x1.8p52);
-    }
-    static SANDLANE_INLINE W to_whole(const D& value) {
-        return xsimd::bitwise_cast<W>(value + D(0x1.8p52)) - W(0x4338000000000000ULL);
-    }
     static SANDLANE_INLINE D column_numbers(std::int32_t first) {
         alignas(64) double n[D::size];
         for (std::int32_t i = 0; i < lanes; ++i) n[i] = first + i;
@@ -44,7 +37,7 @@ template <class Arch> struct RippleRows {
         D tallest(0.0);
         for (std::int32_t x = 0; x < v.columns; x += lanes) {
             const W whole = load(from + x);
-            const D h = to_double(whole);
+            const D h = to_double<Arch>(whole);
             tallest = xsimd::max(tallest, xsimd::max(h, zero - h));
             const D flight = length + wind * (h * unit);
             const D far = xsimd::max(zero, flight);
@@ -54,19 +47,17 @@ template <class Arch> struct RippleRows {
                 share = zero;
             }
             if constexpr (landing == 2) {
-                const W index = to_whole(column_numbers(x));
+                const W index = to_whole<Arch>(column_numbers(x));
                 const WordSource source{{v.seed[0], v.seed[1]}, static_cast<std::uint32_t>(row), v.step};
-                const W r = random_words<Arch>(index, source, 5); // first word in the lower half
-                const W bits = right<11>(left<32>(r) | right<32>(r));
-                const D u = to_double(right<32>(bits)) * D(0x1p32) + to_double(bits & W(0xffffffffULL));
-                share = xsimd::select(u * D(0x1p-53) < share, D(1.0), zero);
+                const D u = to_unit<Arch>(random_words<Arch>(index, source, 5));
+                share = xsimd::select(u < share, D(1.0), zero);
             }
             if (xsimd::any(flight < zero)) result.clamped += clamped(flight, v.columns - x);
             D at = column_numbers(x) + cells;
             if (xsimd::any(cells >= columns)) at = at - columns * xsimd::floor(at / columns);
             at = xsimd::select(at >= columns, at - columns, at);
-            store(first + x, to_whole(at));
-            store(second + x, to_whole(xsimd::floor(share * transport)));
+            store(first + x, to_whole<Arch>(at));
+            store(second + x, to_whole<Arch>(xsimd::floor(share * transport)));
             store(to + x, whole - q);
         }
         if (xsimd::any(tallest > high)) result.too_high = true;
@@ -99,7 +90,7 @@ template <class Arch> struct RippleRows {
 
     // floor(weight (a - b)).
     static SANDLANE_INLINE W flux(const W& a, const W& b, const D& weight) {
-        return to_whole(xsimd::floor(weight * to_double(a - b)));
+        return to_whole<Arch>(xsimd::floor(weight * to_double<Arch>(a - b)));
     }
 
     // What flows from a row to the one above, straight, to the right and to the left, [3][columns]. turned:

@@ -115,12 +115,28 @@ using SaltationKernel = RippleResult (*)(const RippleView&, std::int32_t first, 
 // landed -> heights; all rows have landed.
 using CreepKernel = void (*)(const RippleView&, std::int32_t first, std::int32_t last, std::int64_t* scratch);
 
+// ---- heaps (docs/automata.md 2)
+
+inline constexpr int heap_lanes = 8;
+
+// Eight one-sided heaps without avalanches, heights [columns][heap_lanes].
+struct HeapView {
+    std::int32_t* heights;
+    std::int64_t columns;
+    double retained, sticking, start_energy, roughness; // r, U, E_0, delta
+    std::uint32_t seed[heap_lanes][2];
+    std::int64_t* lost; // [heap_lanes], grains that left over the end
+};
+// Drops grains with numbers first_grain, first_grain + 1, ... on each.
+using HeapKernel = void (*)(const HeapView&, std::uint32_t first_grain, std::int64_t grains);
+
 struct AutomataKernels {
     GasKernel gas[gas_models][gas_variants]; // null where a model has no such variant
     PileKernel pile[2][2];                   // heights of 1 or 2 bytes; full or unit topplings
     PileKernel pile_odometer;                // 2 bytes, full
     SaltationKernel saltation[3];            // interpolated, whole, stochastic
     CreepKernel creep;
+    HeapKernel heap[2]; // smooth, rough
 };
 
 // Not of Isa::scalar.

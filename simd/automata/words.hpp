@@ -78,6 +78,45 @@ SANDLANE_INLINE Words<Arch> random_words(const Words<Arch>& index, const WordSou
     return (c0 & W(0xffffffffULL)) | left<32>(c1);
 }
 
+// The same with counters and keys of their own in all lanes.
+template <class Arch>
+SANDLANE_INLINE Words<Arch> random_words(Words<Arch> c0, Words<Arch> c1, Words<Arch> c2, Words<Arch> c3,
+                                         Words<Arch> k0, Words<Arch> k1) {
+    using W = Words<Arch>;
+    const W m0(0xD2511F53ULL), m1(0xCD9E8D57ULL);
+#pragma GCC unroll 10
+    for (int round = 0; round < 10; ++round) {
+        const W p0 = multiply_low(c0, m0), p1 = multiply_low(c2, m1);
+        c0 = right<32>(p1) ^ c1 ^ k0;
+        c2 = right<32>(p0) ^ c3 ^ k1;
+        c1 = p1;
+        c3 = p0;
+        k0 = k0 + W(0x9E3779B9ULL);
+        k1 = k1 + W(0xBB67AE85ULL);
+    }
+    return (c0 & W(0xffffffffULL)) | left<32>(c1);
+}
+
+// ---- whole numbers and doubles
+
+// Whole numbers below 2^51 and doubles, exactly: the bits of 1.5 2^52 plus the number.
+template <class Arch> SANDLANE_INLINE xsimd::batch<double, Arch> to_double(const Words<Arch>& whole) {
+    using D = xsimd::batch<double, Arch>;
+    return xsimd::bitwise_cast<D>(whole + Words<Arch>(0x4338000000000000ULL)) - D(0x1.8p52);
+}
+template <class Arch> SANDLANE_INLINE Words<Arch> to_whole(const xsimd::batch<double, Arch>& value) {
+    using D = xsimd::batch<double, Arch>;
+    return xsimd::bitwise_cast<Words<Arch>>(value + D(0x1.8p52)) - Words<Arch>(0x4338000000000000ULL);
+}
+// Uniform in [0, 1) with 53 bits, of random words: the first word is the upper one.
+template <class Arch> SANDLANE_INLINE xsimd::batch<double, Arch> to_unit(const Words<Arch>& random) {
+    using D = xsimd::batch<double, Arch>;
+    const Words<Arch> bits = right<11>(left<32>(random) | right<32>(random));
+    return (to_double<Arch>(right<32>(bits)) * D(0x1p32) +
+            to_double<Arch>(bits & Words<Arch>(0xffffffffULL))) *
+           D(0x1p-53);
+}
+
 // Bits that are 1 with probability P/2^16, P not 0 and not 2^16: from the lowest set bit of P upwards.
 template <class Arch>
 SANDLANE_INLINE Words<Arch> bernoulli_words(const Words<Arch>& index, const WordSource& source,

@@ -67,6 +67,26 @@ TEST(Heap, KeepsOrLosesEveryGrain) {
             }
 }
 
+TEST(Heap, LanesAreTheHeaps) {
+    for (const double rough : {0.0, 0.7})
+        for (const std::size_t count : {1U, 5U, 8U})
+            for (const simd::Isa isa : simd::available_isas()) {
+                if (isa == simd::Isa::scalar) continue;
+                std::vector<HeapTable> expected, found;
+                for (std::uint32_t n = 0; n < count; ++n)
+                    expected.emplace_back(25, HeapRules{.55, 1.3, .2, rough, 0, false, {n, 5}});
+                found = expected;
+                for (HeapTable& heap : expected)
+                    for (std::uint32_t g = 0; g < 1500; ++g) heap.drop(g);
+                drop_on_lanes(found, isa, 0, 700);
+                drop_on_lanes(found, isa, 700, 800);
+                for (std::size_t n = 0; n < count; ++n) {
+                    EXPECT_EQ(found[n].heights(), expected[n].heights()) << simd::isa_name(isa);
+                    EXPECT_EQ(found[n].lost(), expected[n].lost());
+                }
+            }
+}
+
 TEST(Heap, TwoSidesAreAlike) {
     HeapTable table(500, {.5, 1.5, 0, 0, 0, true, {7, 0}});
     for (std::uint32_t g = 0; g < 20000; ++g) table.drop(g);
