@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -54,6 +55,16 @@ Words words_of(const scene::Scene& s) {
     if (drops_grains(s)) return {"pile", "piles", "piles", "grains", "grains", ""};
     const bool sweeps = s.method == scene::Engine::sandpile;
     return {"site", "sites", "sites", "site-updates", sweeps ? "sweeps" : "steps", ""};
+}
+
+// About; times of outputs are parts of it. The constants are those of large lattices.
+double sweeps_until_quiet(const scene::Sandpile& s) {
+    const double side = static_cast<double>(std::max(s.columns, s.rows));
+    if (s.start == scene::PileStart::doubled) return std::max(1.0, std::ceil(std::log2(side / 32)) + 1);
+    if (s.start == scene::PileStart::identity) return 0.6 * side * side;
+    const double spreading = 0.2 * static_cast<double>(s.centre),
+                 sinking = s.height > 3 ? 0.1 * side * side : 0;
+    return 10 * side + spreading + sinking;
 }
 
 std::string step_name(const Words& words) {
@@ -153,12 +164,9 @@ public:
     [[nodiscard]] bool finished() const override { return model_->finished(); }
     [[nodiscard]] double time() const override { return static_cast<double>(step()); }
     [[nodiscard]] double time_step() const override { return 1; }
-    // Of a pile that runs until it is quiet nobody knows it before: about as many sweeps as sites of a side.
     [[nodiscard]] double duration() const override {
         const std::int64_t steps = steps_of(scene_);
-        return steps > 0
-                   ? static_cast<double>(steps)
-                   : 10.0 * static_cast<double>(std::max(scene_.sandpile.columns, scene_.sandpile.rows));
+        return steps > 0 ? static_cast<double>(steps) : sweeps_until_quiet(scene_.sandpile);
     }
     // A grain is dropped on one pile, whatever its size.
     [[nodiscard]] std::size_t size() const override { return drops_grains(scene_) ? 1 : model_->sites(); }

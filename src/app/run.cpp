@@ -94,14 +94,15 @@ private:
     }
 
     void advance(std::int64_t stop) {
-        const std::int64_t steps = stop - engine_.step();
+        const std::int64_t before = engine_.step(), asked = stop - before;
         const Stopwatch clock;
-        engine_.run(steps);
+        engine_.run(asked);
         const double seconds = clock.seconds();
+        const std::int64_t steps = engine_.step() - before; // fewer if it has finished
         timing_.seconds += seconds;
         timing_.steps += steps;
         timing_.work += static_cast<double>(steps) * static_cast<double>(engine_.size());
-        if (seconds < 0.05 && steps == slice_) slice_ *= 2;
+        if (seconds < 0.05 && asked == slice_) slice_ *= 2;
         if (seconds > 0.2 && slice_ > 1) slice_ /= 2;
     }
 

@@ -65,6 +65,8 @@ public:
     [[nodiscard]] double visited() const { return visited_; } // share of the tiles in the last sweep
 
 private:
+    struct Pair;
+    void sweep_block(const Pair& pair, std::size_t block);
     [[nodiscard]] double active_share() const;
     std::uint64_t sweep_tiles(PileLattice& lattice, bool unit, Column<std::uint8_t>* odometer);
 
