@@ -176,7 +176,7 @@ TEST(Sandpile, SingleSourcesByKernels) {
                         pile_scene(fmt::format("columns = {0}\nrows = {0}\ncentre = {1}\nsweep = "
                                                "\"{2}\"\nactive_tiles = {3}\n",
                                                s.size, s.grains, sweep, active)),
-                        {isa, 2});
+                        {isa, s.grains > 1000 ? 1 : 2});
                     run_to_rest(model);
                     EXPECT_EQ(static_cast<std::int64_t>(model.topplings()), s.topplings);
                     EXPECT_EQ(histogram(heights_of(model.lattice())), s.counts);
