@@ -97,15 +97,15 @@ private:
     }
 
     void advance(std::int64_t stop) {
-        const std::int64_t steps = stop - engine_.step(), before = engine_.taken();
+        const std::int64_t asked = stop - engine_.step(), before = engine_.taken();
         const Stopwatch clock;
-        engine_.run(steps);
+        engine_.run(asked);
         const double seconds = clock.seconds();
+        const std::int64_t taken = engine_.taken() - before; // fewer if it has finished
         timing_.seconds += seconds;
-        const std::int64_t taken = engine_.taken() - before;
         timing_.steps += taken;
         timing_.work += static_cast<double>(taken) * static_cast<double>(engine_.size());
-        if (seconds < 0.05 && steps == slice_) slice_ *= 2;
+        if (seconds < 0.05 && asked == slice_) slice_ *= 2;
         if (seconds > 0.2 && slice_ > 1) slice_ /= 2;
     }
 

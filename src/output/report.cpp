@@ -83,6 +83,15 @@ std::string summary_rows(const ReportInput& input) {
     return rows;
 }
 
+std::string figures(const ReportInput& input) {
+    std::string text;
+    for (const Figure& f : input.figures)
+        text += fmt::format("<figure class=\"card\"><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
+                            "<figcaption>{0}</figcaption></figure>",
+                            html_text(f.caption), base64(f.png));
+    return text;
+}
+
 // Replaces every {{name}} of the template once: what is filled in is not looked at again.
 std::string fill(std::string_view page, const std::map<std::string, std::string, std::less<>>& parts) {
     std::string out;
@@ -106,6 +115,7 @@ void write_report(const std::filesystem::path& path, const ReportInput& input) {
                                                  {"css", std::string(page_css)},
                                                  {"script", std::string(page_script)},
                                                  {"summary", summary_rows(input)},
+                                                 {"figures", figures(input)},
                                                  {"plan", html_text(input.plan)},
                                                  {"scene", html_text(input.scene_text)},
                                                  {"data", page_data(input, log_stride, replay)},

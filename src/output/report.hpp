@@ -12,6 +12,11 @@
 
 namespace sandlane::output {
 
+// A picture in the report.
+struct Figure {
+    std::string caption, png; // bytes
+};
+
 struct ReportInput {
     scene::Scene scene;                                       // title, domain, colour and body are shown
     std::vector<std::pair<std::string, std::string>> summary; // label, value
@@ -19,6 +24,7 @@ struct ReportInput {
     std::string scene_text;                                   // the effective scene
     analysis::Log log;
     std::vector<ReplayFrame> replay;
+    std::vector<Figure> figures;
 };
 
 // A long log and replay are thinned so that the page stays below about 5 MB; the page says so.

@@ -53,6 +53,10 @@ and `lattice-half`, and the trajectory format `book` (all 2D).
 
 Entries of a list are counted from 0. The value is TOML; a text without quotes is understood where it is not TOML.
 
+**Methods.** `method` chooses what runs the scene; without it, molecular dynamics. Tables that the method does not read are an
+error. Those of one method only say so below: "With `method` = ...". Cellular automata have no domain and no units: lengths are
+in sites, times, those of `[output]` too, in steps.
+
 **Names.** Grains and walls refer to a material by its name, walls to a motion; with one material the name may be left out.
 File names are relative to the folder of the scene file.
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/vec.hpp"
+#include "scene/automata.hpp"
 
 #include <array>
 #include <cstdint>
@@ -253,6 +254,12 @@ struct Scene {
     std::vector<Sink> sinks;
     std::vector<Motion> motions;
     Md md;
+    Sandpile sandpile;
+    Heap heap;
+    Ripples ripples;
+    LatticeGas lattice_gas;
+    std::vector<Obstacle> obstacles;
+    PipeFlow pipe_flow;
     std::vector<AnalysisSpec> analyses;
     Output output;
 };

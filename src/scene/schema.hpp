@@ -112,6 +112,12 @@ const Table<Wall>& wall_table();
 const Table<Sink>& sink_table();
 const Table<Motion>& motion_table();
 const Table<Md>& md_table();
+const Table<Sandpile>& sandpile_table();
+const Table<Heap>& heap_table();
+const Table<Ripples>& ripples_table();
+const Table<LatticeGas>& lattice_gas_table();
+const Table<Obstacle>& obstacle_table();
+const Table<PipeFlow>& pipe_flow_table();
 const Table<AnalysisSpec>& analysis_table();
 const Table<Output>& output_table();
 const Table<Scene>& scene_table(); // the keys outside any table

@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const scene::Scene s = scene::parse_scene(text, "fuzz.toml");
         const std::string written = scene::write_scene(s);
         if (scene::write_scene(scene::parse_scene(written, "written.toml")) != written) std::abort();
-        if (!is_small(s)) return 0;
+        if (s.method != scene::Engine::md || !is_small(s)) return 0;
         const md::Needs needs = md::analyse(s, scene::initial_grains(s));
         const md::Plan plan = md::make_plan(s, needs, md::derive(s, needs), simd::Isa::scalar, {1, "fuzz"});
         if (!(plan.dt > 0) || plan.steps < 0) std::abort();

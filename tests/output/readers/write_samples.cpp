@@ -2,6 +2,8 @@
 // the tests that read them with other programs. usage: write_samples FOLDER
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "output/field_picture.hpp"
+#include "output/npy.hpp"
 #include "output/report.hpp"
 #include "output/sample.hpp"
 #include "output/writers.hpp"
@@ -163,6 +165,20 @@ void write_reports(const fs::path& folder) {
     write("crowd.html", report(sample::frames(crowd, 3), 5000));
 }
 
+// values[y][x] = 10 y + x.
+analysis::Field numbered_field() {
+    analysis::Field field{"field", "number", "", 7, 5, {}, false, 0};
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 7; ++x) field.values.push_back(10 * y + x);
+    return field;
+}
+
+void write_fields(const fs::path& folder) {
+    fs::create_directories(folder);
+    output::write_npy(folder / "field.npy", numbered_field());
+    write_file_atomically(folder / "field.png", output::draw_field(numbered_field(), "step 7", 60, 200));
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -175,6 +191,7 @@ int main(int argc, char** argv) {
         write_trajectories(folder / "space", sample::frames(sample::space_row, 3));
         write_trajectories(folder / "periodic-space", sample::frames(sample::periodic_space_row, 3));
         write_reports(folder / "reports");
+        write_fields(folder / "fields");
     } catch (const std::exception& e) {
         fmt::print(stderr, "write_samples: {}\n", e.what());
         return static_cast<int>(Exit::internal);

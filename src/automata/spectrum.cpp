@@ -1,0 +1,101 @@
+#include "automata/spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace sandlane::automata {
+
+void fourier(std::vector<std::complex<double>>& values) {
+    const std::size_t n = values.size();
+    for (std::size_t i = 1, j = 0; i < n; ++i) {
+        std::size_t bit = n >> 1;
+        for (; (j & bit) != 0; bit >>= 1) j ^= bit;
+        j |= bit;
+        if (i < j) std::swap(values[i], values[j]);
+    }
+    for (std::size_t half = 1; half < n; half *= 2)
+        for (std::size_t k = 0; k < half; ++k) {
+            const std::complex<double> turn =
+                std::polar(1.0, -std::numbers::pi * static_cast<double>(k) / static_cast<double>(half));
+            for (std::size_t at = k; at < n; at += 2 * half) {
+                const std::complex<double> odd = values[at + half] * turn;
+                values[at + half] = values[at] - odd;
+                values[at] += odd;
+            }
+        }
+}
+
+Spectrum welch(std::span<const double> series, std::size_t length) {
+    Spectrum result;
+    if (length < 4 || series.size() < length) return result;
+    std::vector<double> sums(length / 2, 0), window(length);
+    double weight = 0;
+    for (std::size_t i = 0; i < length; ++i) {
+        window[i] =
+            0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(length));
+        weight += window[i] * window[i];
+    }
+    std::size_t pieces = 0;
+    for (std::size_t start = 0; start + length <= series.size(); start += length / 2, ++pieces) {
+        double mean = 0;
+        for (std::size_t i = 0; i < length; ++i) mean += series[start + i];
+        mean /= static_cast<double>(length);
+        std::vector<std::complex<double>> values(length);
+        for (std::size_t i = 0; i < length; ++i) values[i] = window[i] * (series[start + i] - mean);
+        fourier(values);
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += std::norm(values[k + 1]);
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        result.frequency.push_back(static_cast<double>(k + 1) / static_cast<double>(length));
+        result.power.push_back(2 * sums[k] / (weight * static_cast<double>(pieces)));
+    }
+    return result;
+}
+
+Line fit_line(std::span<const double> x, std::span<const double> y) {
+    const double n = static_cast<double>(x.size());
+    double mean_x = 0, mean_y = 0, xx = 0, xy = 0, rest = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        mean_x += x[i] / n;
+        mean_y += y[i] / n;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        xx += (x[i] - mean_x) * (x[i] - mean_x);
+        xy += (x[i] - mean_x) * (y[i] - mean_y);
+    }
+    Line line;
+    line.slope = xy / xx;
+    line.offset = mean_y - line.slope * mean_x;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double off = y[i] - line.offset - line.slope * x[i];
+        rest += off * off;
+    }
+    line.error = n > 2 ? std::sqrt(rest / (n - 2) / xx) : std::numeric_limits<double>::infinity();
+    return line;
+}
+
+Line power_law(const Spectrum& spectrum, double from, double to) {
+    constexpr double bins_per_octave = 3;
+    std::vector<double> x, y;
+    std::size_t k = 0;
+    while (k < spectrum.frequency.size() && spectrum.frequency[k] < from) ++k;
+    while (k < spectrum.frequency.size() && spectrum.frequency[k] <= to) {
+        const double end = spectrum.frequency[k] * std::exp2(1 / bins_per_octave);
+        double power = 0, logs = 0, count = 0;
+        for (; k < spectrum.frequency.size() && spectrum.frequency[k] < end; ++k, ++count) {
+            power += spectrum.power[k];
+            logs += std::log(spectrum.frequency[k]);
+        }
+        if (!(power > 0)) continue;
+        x.push_back(logs / count);
+        y.push_back(std::log(power / count));
+    }
+    if (x.size() < 3) return {0, 0, std::numeric_limits<double>::infinity()};
+    Line line = fit_line(x, y);
+    line.slope = -line.slope;
+    return line;
+}
+
+} // namespace sandlane::automata
