@@ -1,0 +1,181 @@
+// Free flight of eight particles at a time, and the cell that they come to. Those that may meet a wall or a
+// periodic side on the way go one by one.
+#pragma once
+
+#include "laws/elementary.hpp"
+#include "motion/ballistic.hpp"
+#include "simd/dsmc/sort.ipp"
+#include "simd/rows.hpp"
+#include "simd/words.hpp"
+
+namespace sandlane::simd {
+
+// One of the two flights: moves places and velocities; returns the lanes that are not safe.
+template <class Arch, int dimension>
+SANDLANE_INLINE unsigned fly_freely(const GasFlightView& view, double duration, Block<Arch> (&x)[gas_row],
+                                    Block<Arch> (&v)[gas_row]) {
+    using R = Block<Arch>;
+    const R time(duration), half_square(0.5 * duration * duration);
+    unsigned safe = 0xffu;
+    for (int d = 0; d < dimension; ++d) {
+        const R low(view.safe_lower[d]), high(view.safe_upper[d]);
+        R to = motion::straight(x[d], v[d], time);
+        R least = min(x[d], to), most = max(x[d], to);
+        if (view.falls) {
+            to = motion::bent(to, R(view.gravity[d]), half_square);
+            v[d] = v[d] + R(view.gravity[d]) * time;
+            least = min(least, to);
+            most = max(most, to);
+        }
+        x[d] = to;
+        safe &= bits((least >= low) & (most < high));
+    }
+    return ~safe & 0xffu;
+}
+
+template <class Arch, int dimension>
+SANDLANE_INLINE void kick(const GasFlightView& view, const Block<Arch>& word, Block<Arch> (&v)[gas_row]) {
+    using R = Block<Arch>;
+    using W = Words<Arch>;
+    const W id = words_of(word) & W(0xffffffffu);
+    for (std::uint32_t block = 0; block < 2; ++block) {
+        if (2 * static_cast<int>(block) >= dimension) break;
+        const PhiloxLanes<Arch> draw = philox<Arch>(W(block), id, view.random.step,
+                                                    view.random.last_word(GasStream::kick), view.random.key);
+        const R radius =
+            R(view.kick) * sqrt(R(-2.0) * laws::logarithm(R(1.0) - unit_number(draw.w[0], draw.w[1])));
+        R sine, cosine;
+        laws::sine_cosine_of_turn(unit_number(draw.w[2], draw.w[3]), sine, cosine);
+        v[2 * block] = v[2 * block] + radius * cosine;
+        if (2 * static_cast<int>(block) + 1 < dimension) v[2 * block + 1] = v[2 * block + 1] + radius * sine;
+    }
+}
+
+template <class Arch> SANDLANE_INLINE double sum_of_lanes(const Block<Arch>& b) {
+    double l[width];
+    store(l, b);
+    return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
+}
+
+// Lanes that are left of eight.
+template <class Arch> SANDLANE_INLINE Block<Arch> first_lanes(std::int32_t n, const Block<Arch>& value) {
+    if (n >= width) return value;
+    double lanes[width];
+    store(lanes, value);
+    for (int l = 0; l < width; ++l) lanes[l] = l < n ? lanes[l] : 0.0;
+    return load<Arch>(lanes);
+}
+
+template <class Arch, int dimension>
+SANDLANE_INLINE Block<Arch> number_of_cell(const GasFlightView& view, const Block<Arch> (&x)[gas_row]) {
+    Block<Arch> number = laws::cell_number(view.axis[0], x[0]);
+    for (int d = 1; d < dimension; ++d) number = number + laws::cell_number(view.axis[d], x[d]);
+    return number;
+}
+
+// One particle to where it goes: those that stay, or those that leave the tile.
+template <class Arch, bool rough>
+SANDLANE_INLINE void put_particle(const GasFlightView& view, const double* place, const double* velocity,
+                                  const double* spin, GasFlight& result) {
+    const bool stays = !view.sort || static_cast<std::uint32_t>(cell_of<Arch>(place) - view.first_cell) <
+                                         static_cast<std::uint32_t>(view.cells);
+    const std::ptrdiff_t at = std::ptrdiff_t{stays ? result.stay : result.leave} * gas_row;
+    const GasRows& to = stays ? view.stay : view.leave;
+    copy_row<Arch>(to.place + at, place);
+    copy_row<Arch>(to.velocity + at, velocity);
+    if constexpr (rough) copy_row<Arch>(to.spin + at, spin);
+    result.stay += stays ? 1 : 0;
+    result.leave += stays ? 0 : 1;
+}
+
+// One particle along walls and sides, from where it started.
+template <class Arch, int dimension>
+SANDLANE_INLINE void fly_alone(const GasFlightView& view, double* place, double* velocity, double* spin,
+                               GasFlight& result) {
+    for (int second = 0; second < 2; ++second)
+        if (view.durations[second] > 0) fly_to_walls(view, place, velocity, spin, second == 1, result);
+    if (!view.sort) return;
+    double number = laws::cell_number(view.axis[0], place[0]);
+    for (int d = 1; d < dimension; ++d) number = number + laws::cell_number(view.axis[d], place[d]);
+    const auto cell = static_cast<std::int32_t>(number);
+    std::memcpy(reinterpret_cast<char*>(place + 3) + 4, &cell, sizeof cell);
+}
+
+// Eight rows as they are.
+template <class Arch> SANDLANE_INLINE void copy_rows(double* to, const double* from) {
+    Block<Arch> rows[gas_row];
+    for (int r = 0; r < gas_row; ++r) rows[r] = load<Arch>(from + r * width);
+    for (int r = 0; r < gas_row; ++r) store(to + r * width, rows[r]);
+}
+
+template <class Arch, int dimension, bool rough>
+SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& view) {
+    using R = Block<Arch>;
+    using W = Words<Arch>;
+    GasFlight result;
+    R squares(0.0), fastest(0.0);
+    const R first_cell(view.first_cell), last_cell(view.first_cell + view.cells);
+    const bool changes = view.falls || view.kick > 0;
+    for (std::int32_t first = 0; first < view.count; first += width) {
+        const std::int32_t lanes = view.count - first < width ? view.count - first : width;
+        const double* place = view.from.place + std::ptrdiff_t{first} * gas_row;
+        const double* velocity = view.from.velocity + std::ptrdiff_t{first} * gas_row;
+        R x[gas_row], v[gas_row], started[gas_row];
+        Rows<Arch, gas_row>::load(place, x);
+        Rows<Arch, gas_row>::load(velocity, v);
+        if (view.kick > 0) kick<Arch, dimension>(view, x[3], v);
+        R square = v[0] * v[0];
+        for (int d = 1; d < dimension; ++d) square = square + v[d] * v[d];
+        square = first_lanes(lanes, square);
+        squares = squares + square;
+        fastest = max(square, fastest);
+        for (int d = 0; d < gas_row; ++d) started[d] = v[d];
+        unsigned at_walls = 0, leaves = 0;
+        for (const double duration : view.durations)
+            if (duration > 0) at_walls |= fly_freely<Arch, dimension>(view, duration, x, v);
+        if (view.sort) {
+            const R number = number_of_cell<Arch, dimension>(view, x);
+            leaves = ~bits((number >= first_cell) & (number < last_cell)) & 0xffu;
+            x[3] = block_of((words_of(x[3]) & W(0xffffffffu)) ^ left<32>(word_of(number)));
+        }
+        if (lanes == width && (at_walls | leaves) == 0) {
+            const std::ptrdiff_t at = std::ptrdiff_t{result.stay} * gas_row;
+            Rows<Arch, gas_row>::store(x, view.stay.place + at);
+            if (changes)
+                Rows<Arch, gas_row>::store(v, view.stay.velocity + at);
+            else
+                copy_rows<Arch>(view.stay.velocity + at, velocity);
+            if constexpr (rough)
+                copy_rows<Arch>(view.stay.spin + at, view.from.spin + std::ptrdiff_t{first} * gas_row);
+            result.stay += width;
+            continue;
+        }
+        alignas(64) double old_places[width * gas_row], places[width * gas_row];
+        alignas(64) double old_velocities[width * gas_row], velocities[width * gas_row],
+            spins[width * gas_row];
+        std::memcpy(old_places, place, sizeof old_places);
+        if constexpr (rough)
+            std::memcpy(spins, view.from.spin + std::ptrdiff_t{first} * gas_row, sizeof spins);
+        Rows<Arch, gas_row>::store(x, places);
+        Rows<Arch, gas_row>::store(started, old_velocities);
+        Rows<Arch, gas_row>::store(v, velocities);
+        for (std::int32_t l = 0; l < lanes; ++l) {
+            const int at = l * gas_row;
+            const bool at_wall = (at_walls >> l & 1u) != 0;
+            double *to_place = (at_wall ? old_places : places) + at,
+                   *to_velocity = (at_wall ? old_velocities : velocities) + at;
+            if (at_wall) fly_alone<Arch, dimension>(view, to_place, to_velocity, spins + at, result);
+            put_particle<Arch, rough>(view, to_place, to_velocity, spins + at, result);
+        }
+    }
+    result.square_sum = sum_of_lanes(squares);
+    result.fastest2 = largest(fastest);
+    return result;
+}
+
+template <class Arch, int dimension> GasFlight fly_gas(const GasFlightView& view) {
+    return view.from.spin != nullptr ? fly_rows<Arch, dimension, true>(view)
+                                     : fly_rows<Arch, dimension, false>(view);
+}
+
+} // namespace sandlane::simd
