@@ -54,7 +54,8 @@ struct SortView {
     const GasSegment* segments;
     std::int32_t segment_count;
     std::int32_t first_cell, cells;
-    std::int32_t* start; // [cells + 2]; its first cells + 1 entries are the starts of the sorted rows
+    std::int32_t* start;   // [cells + 1], of the sorted rows
+    std::int32_t* next[2]; // room for a number of each cell
     GasRows to;
 };
 // Counting sort, stable; returns the number of rows.

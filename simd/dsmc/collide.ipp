@@ -5,35 +5,32 @@
 
 #include "laws/collision.hpp"
 #include "simd/compress.hpp"
+#include "simd/dsmc/rows_of_four.hpp"
 #include "simd/dsmc_tables.hpp"
-#include "simd/rows.hpp"
 #include "simd/words.hpp"
 
 #include <cstring>
 
 namespace sandlane::simd {
 
-// Square of the diagonal of the box that holds the velocities of n >= 2 rows: no two differ by more.
-template <class Arch> SANDLANE_INLINE double square_extent(const double* velocity, std::int32_t n) {
+// Extent of the velocities of n >= 2 rows, by column: no two differ by more than its diagonal.
+template <class Arch>
+SANDLANE_INLINE void velocity_extent(const double* velocity, std::int32_t n, double* row) {
     using R = Block<Arch>; // two rows
     R low = load<Arch>(velocity), high = low;
-    for (std::int32_t k = 2; k + 1 < n; k += 2) {
+    const auto take = [&](std::int32_t k) {
         const R rows = load<Arch>(velocity + std::ptrdiff_t{k} * gas_row);
         low = min(low, rows);
         high = max(high, rows);
+    };
+    constexpr std::int32_t usual = 16;
+    if (n > 4 && n <= usual) { // always the same number of rows, the last ones again: no branch to mispredict
+        for (std::int32_t k = 2; k < usual; k += 2) take(k < n - 2 ? k : n - 2);
+    } else {
+        for (std::int32_t k = 2; k + 1 < n; k += 2) take(k);
+        take(n - 2);
     }
-    if ((n & 1) != 0) { // the last one once more with the one before
-        const R rows = load<Arch>(velocity + std::ptrdiff_t{n - 2} * gas_row);
-        low = min(low, rows);
-        high = max(high, rows);
-    }
-    double a[width], b[width];
-    store(a, low);
-    store(b, high);
-    double extent[3];
-    for (int d = 0; d < 3; ++d)
-        extent[d] = sandlane::max(b[d], b[d + gas_row]) - sandlane::min(a[d], a[d + gas_row]);
-    return extent[0] * extent[0] + extent[1] * extent[1] + extent[2] * extent[2];
+    store_extent(high, low, row);
 }
 
 // Number of candidates of every cell, and the list of the cells that have any; returns its length.
@@ -44,22 +41,25 @@ SANDLANE_INLINE std::int32_t count_candidates(const GasCollisionView& view, GasC
     const double* velocity = view.rows.velocity;
     std::int32_t active = 0;
     for (std::int32_t first = 0; first < view.cells; first += width) {
-        double number[width], extent2[width];
+        alignas(64) double number[width], extents[width * gas_row];
         std::uint64_t cell[width];
         const std::int32_t end = view.cells - first < width ? view.cells - first : width;
         bool pairs = false;
         for (std::int32_t l = 0; l < width; ++l) {
-            number[l] = extent2[l] = 0;
+            number[l] = 0;
             cell[l] = static_cast<std::uint64_t>(view.first_cell + first + l);
             if (l >= end) continue;
             const std::int32_t begin = view.start[first + l], n = view.start[first + l + 1] - begin;
             if (n < 2) continue;
             pairs = true;
             number[l] = n;
-            extent2[l] = square_extent<Arch>(velocity + std::ptrdiff_t{begin} * gas_row, n);
+            velocity_extent<Arch>(velocity + std::ptrdiff_t{begin} * gas_row, n, extents + l * gas_row);
         }
         if (!pairs) continue;
-        const R n = load<Arch>(number), majorant = R(view.margin) * sqrt(load<Arch>(extent2));
+        R extent[gas_row];
+        Rows<Arch, gas_row>::load(extents, extent);
+        const R square = extent[0] * extent[0] + extent[1] * extent[1] + extent[2] * extent[2];
+        const R n = load<Arch>(number), majorant = select(n > R(1.0), R(view.margin) * sqrt(square), R(0.0));
         R mean = R(view.rate) * (n * (n - R(1.0))) * majorant;
         if (view.packing > 0) mean = mean * laws::contact_correlation(dimension, R(view.packing) * n);
         const PhiloxLanes<Arch> draw =

@@ -10,27 +10,36 @@
 
 namespace sandlane::simd {
 
-// One of the two flights: moves places and velocities; returns the lanes that are not safe.
+// Both flights: moves places and velocities; returns the lanes that may meet a wall or a side on the way.
+// Without gravity the middle of the way lies between its ends.
 template <class Arch, int dimension>
-SANDLANE_INLINE unsigned fly_freely(const GasFlightView& view, double duration, Block<Arch> (&x)[gas_row],
+SANDLANE_INLINE unsigned fly_freely(const GasFlightView& view, Block<Arch> (&x)[gas_row],
                                     Block<Arch> (&v)[gas_row]) {
     using R = Block<Arch>;
-    const R time(duration), half_square(0.5 * duration * duration);
-    unsigned safe = 0xffu;
-    for (int d = 0; d < dimension; ++d) {
-        const R low(view.safe_lower[d]), high(view.safe_upper[d]);
-        R to = motion::straight(x[d], v[d], time);
-        R least = min(x[d], to), most = max(x[d], to);
-        if (view.falls) {
-            to = motion::bent(to, R(view.gravity[d]), half_square);
+    R least[dimension], most[dimension];
+    for (int d = 0; d < dimension; ++d) least[d] = most[d] = x[d];
+    for (const double duration : view.durations) {
+        if (!(duration > 0)) continue;
+        const R time(duration), half_square(0.5 * duration * duration);
+        for (int d = 0; d < dimension; ++d) {
+            x[d] = motion::straight(x[d], v[d], time);
+            if (!view.falls) continue;
+            least[d] = min(least[d], x[d]);
+            most[d] = max(most[d], x[d]);
+            x[d] = motion::bent(x[d], R(view.gravity[d]), half_square);
             v[d] = v[d] + R(view.gravity[d]) * time;
-            least = min(least, to);
-            most = max(most, to);
+            least[d] = min(least[d], x[d]);
+            most[d] = max(most[d], x[d]);
         }
-        x[d] = to;
-        safe &= bits((least >= low) & (most < high));
     }
-    return ~safe & 0xffu;
+    for (int d = 0; d < dimension; ++d) {
+        least[d] = min(least[d], x[d]);
+        most[d] = max(most[d], x[d]);
+    }
+    auto safe = (least[0] >= R(view.safe_lower[0])) & (most[0] < R(view.safe_upper[0]));
+    for (int d = 1; d < dimension; ++d)
+        safe = safe & (least[d] >= R(view.safe_lower[d])) & (most[d] < R(view.safe_upper[d]));
+    return ~bits(safe) & 0xffu;
 }
 
 template <class Arch, int dimension>
@@ -95,21 +104,24 @@ SANDLANE_INLINE void fly_alone(const GasFlightView& view, double* place, double*
     for (int second = 0; second < 2; ++second)
         if (view.durations[second] > 0) fly_to_walls(view, place, velocity, spin, second == 1, result);
     if (!view.sort) return;
-    double number = laws::cell_number(view.axis[0], place[0]);
-    for (int d = 1; d < dimension; ++d) number = number + laws::cell_number(view.axis[d], place[d]);
+    double number = laws::nearest_cell_number(view.axis[0], place[0]);
+    for (int d = 1; d < dimension; ++d) number = number + laws::nearest_cell_number(view.axis[d], place[d]);
     const auto cell = static_cast<std::int32_t>(number);
     std::memcpy(reinterpret_cast<char*>(place + 3) + 4, &cell, sizeof cell);
 }
 
-// Eight rows as they are.
-template <class Arch> SANDLANE_INLINE void copy_rows(double* to, const double* from) {
-    Block<Arch> rows[gas_row];
-    for (int r = 0; r < gas_row; ++r) rows[r] = load<Arch>(from + r * width);
-    for (int r = 0; r < gas_row; ++r) store(to + r * width, rows[r]);
+template <class Arch>
+SANDLANE_INLINE void store_lane(const Block<Arch> (&field)[gas_row], int lane, double* row) {
+    double lanes[width];
+    for (int f = 0; f < gas_row; ++f) {
+        store(lanes, field[f]);
+        row[f] = lanes[lane];
+    }
 }
 
 template <class Arch, int dimension, bool rough>
-SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& view) {
+SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& given) {
+    const GasFlightView view = given; // which no store can change
     using R = Block<Arch>;
     using W = Words<Arch>;
     GasFlight result;
@@ -129,10 +141,10 @@ SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& view) {
         square = first_lanes(lanes, square);
         squares = squares + square;
         fastest = max(square, fastest);
-        for (int d = 0; d < gas_row; ++d) started[d] = v[d];
-        unsigned at_walls = 0, leaves = 0;
-        for (const double duration : view.durations)
-            if (duration > 0) at_walls |= fly_freely<Arch, dimension>(view, duration, x, v);
+        if (changes)
+            for (int d = 0; d < gas_row; ++d) started[d] = v[d];
+        const unsigned at_walls = fly_freely<Arch, dimension>(view, x, v);
+        unsigned leaves = 0;
         if (view.sort) {
             const R number = number_of_cell<Arch, dimension>(view, x);
             leaves = ~bits((number >= first_cell) & (number < last_cell)) & 0xffu;
@@ -140,9 +152,9 @@ SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& view) {
         }
         if (lanes == width && (at_walls | leaves) == 0) {
             const std::ptrdiff_t at = std::ptrdiff_t{result.stay} * gas_row;
-            Rows<Arch, gas_row>::store(x, view.stay.place + at);
+            store_rows(x, view.stay.place + at);
             if (changes)
-                Rows<Arch, gas_row>::store(v, view.stay.velocity + at);
+                store_rows(v, view.stay.velocity + at);
             else
                 copy_rows<Arch>(view.stay.velocity + at, velocity);
             if constexpr (rough)
@@ -150,22 +162,19 @@ SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& view) {
             result.stay += width;
             continue;
         }
-        alignas(64) double old_places[width * gas_row], places[width * gas_row];
-        alignas(64) double old_velocities[width * gas_row], velocities[width * gas_row],
-            spins[width * gas_row];
-        std::memcpy(old_places, place, sizeof old_places);
-        if constexpr (rough)
-            std::memcpy(spins, view.from.spin + std::ptrdiff_t{first} * gas_row, sizeof spins);
-        Rows<Arch, gas_row>::store(x, places);
-        Rows<Arch, gas_row>::store(started, old_velocities);
-        Rows<Arch, gas_row>::store(v, velocities);
+        alignas(64) double places[width * gas_row], velocities[width * gas_row], none[gas_row];
+        store_rows(x, places);
+        store_rows(v, velocities);
         for (std::int32_t l = 0; l < lanes; ++l) {
             const int at = l * gas_row;
-            const bool at_wall = (at_walls >> l & 1u) != 0;
-            double *to_place = (at_wall ? old_places : places) + at,
-                   *to_velocity = (at_wall ? old_velocities : velocities) + at;
-            if (at_wall) fly_alone<Arch, dimension>(view, to_place, to_velocity, spins + at, result);
-            put_particle<Arch, rough>(view, to_place, to_velocity, spins + at, result);
+            double spin[gas_row];
+            if constexpr (rough) copy_row<Arch>(spin, view.from.spin + std::ptrdiff_t{first} * gas_row + at);
+            if ((at_walls >> l & 1u) != 0) {
+                copy_row<Arch>(places + at, place + at);
+                if (changes) store_lane(started, l, velocities + at);
+                fly_alone<Arch, dimension>(given, places + at, velocities + at, rough ? spin : none, result);
+            }
+            put_particle<Arch, rough>(view, places + at, velocities + at, spin, result);
         }
     }
     result.square_sum = sum_of_lanes(squares);

@@ -34,6 +34,18 @@ simd::GasRows from_row(const simd::GasRows& rows, std::int32_t i) {
     return {rows.place + at, rows.velocity + at, rows.spin == nullptr ? nullptr : rows.spin + at};
 }
 
+// Cells are computed for places inside the box only.
+void check_particles(const Setup& setup, const std::vector<Particle>& particles) {
+    for (const Particle& p : particles)
+        for (std::size_t d = 0; d < static_cast<std::size_t>(setup.dimension); ++d)
+            if (!(p.place[d] >= setup.lower[d] && p.place[d] <= setup.upper[d]) ||
+                !std::isfinite(p.velocity[d]))
+                fail(Exit::invalid_input,
+                     "particle {}: place {} m, velocity {} m/s in direction {}; it must be in the box, {} m "
+                     "to {} m",
+                     p.id, p.place[d], p.velocity[d], "xyz"[d], setup.lower[d], setup.upper[d]);
+}
+
 } // namespace
 
 void Simulation::Rows::require(std::size_t rows, bool rough, bool keep) {
@@ -83,7 +95,8 @@ Simulation::Simulation(const Setup& setup, const std::vector<Particle>& particle
     scratch_.resize(static_cast<std::size_t>(std::max(threads, 1)));
     const auto cells = static_cast<std::size_t>(tiling_.cells_per_tile());
     for (Scratch& s : scratch_) {
-        s.start.resize(cells + 2);
+        s.start.resize(cells + 1);
+        for (auto& next : s.next) next.resize(cells);
         s.candidates.resize(cells + 8);
         s.majorant.resize(cells + 8);
         s.slot.resize(static_cast<std::size_t>(tiling_.slots()) + 1);
@@ -91,6 +104,7 @@ Simulation::Simulation(const Setup& setup, const std::vector<Particle>& particle
     }
     for (Tile& tile : tiles_)
         for (Outbox& out : tile.out) out.start.assign(static_cast<std::size_t>(tiling_.slots()) + 1, 0);
+    check_particles(setup_, particles);
     place_particles(particles);
     dt_ = next_dt_ = setup_.dt;
     first_square_sum_ = square_sum_;
@@ -103,7 +117,7 @@ void Simulation::place_particles(const std::vector<Particle>& particles) {
     for (std::size_t i = 0; i < particles.size(); ++i) {
         double cell = 0;
         for (std::size_t d = 0; d < static_cast<std::size_t>(setup_.dimension); ++d) {
-            cell += laws::cell_number(axis_[d], particles[i].place[d]);
+            cell += laws::nearest_cell_number(axis_[d], particles[i].place[d]);
             square_sum_ += particles[i].velocity[d] * particles[i].velocity[d];
         }
         number[i] = static_cast<std::int32_t>(cell);
@@ -284,7 +298,8 @@ std::int32_t Simulation::gather(std::int32_t t, Scratch& scratch) const {
     scratch.require(total, setup_.rough);
     const simd::SortView view{segments.data(),       static_cast<std::int32_t>(segments.size()),
                               tiling_.first_cell(t), tiling_.cells_per_tile(),
-                              scratch.start.data(),  scratch.sorted.view()};
+                              scratch.start.data(),  {scratch.next[0].data(), scratch.next[1].data()},
+                              scratch.sorted.view()};
     return kernels_->sort(view);
 }
 
@@ -342,7 +357,7 @@ std::size_t Simulation::bytes() const {
                2 * tile.out[0].start.size() * sizeof(std::int32_t);
     for (const Scratch& s : scratch_) {
         sum += s.sorted.bytes() + s.leaving.bytes() + s.majorant.size() * sizeof(double);
-        sum += (s.start.size() + s.candidates.size()) * sizeof(std::int32_t);
+        sum += (s.start.size() + 2 * s.next[0].size() + s.candidates.size()) * sizeof(std::int32_t);
         for (const auto& list : s.lists) sum += list.size() * sizeof(std::int32_t);
     }
     return sum;

@@ -76,7 +76,7 @@ private:
     };
     struct Scratch {
         Rows sorted, leaving;
-        std::vector<std::int32_t> start, candidates, lists[4];
+        std::vector<std::int32_t> start, next[2], candidates, lists[4];
         std::vector<double> majorant;
         std::vector<std::int32_t> slot;
         std::vector<simd::GasSegment> segments;

@@ -26,6 +26,8 @@ Tiling::Tiling(const std::int32_t (&cells)[3], const bool (&periodic)[3], double
         count_[d] = (cells_[d] + edge_[d] - 1) / edge_[d];
     }
     const auto n = static_cast<std::size_t>(tiles());
+    for (std::int32_t t = 0; t < tiles(); ++t)
+        places_.push_back({t % count_[0], t / count_[0] % count_[1], t / count_[0] / count_[1]});
     sources_.resize(n);
     slot_.resize(n);
     std::vector<std::vector<Neighbour>> targets(n);
@@ -33,7 +35,7 @@ Tiling::Tiling(const std::int32_t (&cells)[3], const bool (&periodic)[3], double
     for (std::int32_t t = 0; t < tiles(); ++t) {
         auto& slots = slot_[static_cast<std::size_t>(t)];
         slots.fill(-1);
-        const auto at = place(t);
+        const auto& at = place(t);
         for (int direction = 0; direction < 27; ++direction) {
             const int step[3] = {direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1};
             std::int32_t to[3];
@@ -64,12 +66,8 @@ Tiling::Tiling(const std::int32_t (&cells)[3], const bool (&periodic)[3], double
             sources_[static_cast<std::size_t>(to.tile)].push_back({t, to.slot});
 }
 
-std::array<std::int32_t, 3> Tiling::place(std::int32_t tile) const {
-    return {tile % count_[0], tile / count_[0] % count_[1], tile / count_[0] / count_[1]};
-}
-
 std::int32_t Tiling::slot(std::int32_t from, std::int32_t to) const {
-    const auto a = place(from), b = place(to);
+    const auto &a = place(from), &b = place(to);
     std::int32_t direction = 0, factor = 1;
     for (std::size_t d = 0; d < 3; ++d) {
         std::int32_t step = b[d] - a[d];
@@ -90,7 +88,7 @@ laws::CellAxis Tiling::axis(int d, double lower, double upper) const {
     a.lower = lower;
     a.inverse_edge = cells_[d] / (upper - lower);
     a.last = cells_[d] - 1;
-    a.inverse_tile = 1.0 / edge_[d];
+    a.inverse_tile = (1 + 0x1p-40) / edge_[d]; // the first cell of a tile is not below it
     std::int32_t inner = 1, outer = cells_per_tile();
     for (int e = 0; e < d; ++e) {
         inner *= edge_[e];
@@ -102,7 +100,7 @@ laws::CellAxis Tiling::axis(int d, double lower, double upper) const {
 }
 
 std::array<std::int32_t, 3> Tiling::cell(std::int32_t number) const {
-    const auto at = place(number / cells_per_tile());
+    const auto& at = place(number / cells_per_tile());
     const std::int32_t inner = number % cells_per_tile();
     return {at[0] * edge_[0] + inner % edge_[0], at[1] * edge_[1] + inner / edge_[0] % edge_[1],
             at[2] * edge_[2] + inner / edge_[0] / edge_[1]};

@@ -38,12 +38,15 @@ public:
     [[nodiscard]] std::array<std::int32_t, 3> cell(std::int32_t number) const;
 
 private:
-    [[nodiscard]] std::array<std::int32_t, 3> place(std::int32_t tile) const;
+    [[nodiscard]] const std::array<std::int32_t, 3>& place(std::int32_t tile) const {
+        return places_[static_cast<std::size_t>(tile)];
+    }
 
     std::int32_t cells_[3] = {1, 1, 1}, edge_[3] = {1, 1, 1}, count_[3] = {1, 1, 1}, slots_ = 1;
     bool periodic_[3] = {true, true, true};
     std::vector<std::vector<Neighbour>> sources_;
-    std::vector<std::array<std::int8_t, 27>> slot_; // [tile][direction]
+    std::vector<std::array<std::int8_t, 27>> slot_;   // [tile][direction]
+    std::vector<std::array<std::int32_t, 3>> places_; // of the tiles, in tiles
 };
 
 } // namespace sandlane::dsmc

@@ -179,6 +179,11 @@ void fly_to_walls(const GasFlightView& view, double* place, double* velocity, do
         return;
     }
     double now = walls.time[second ? 1 : 0];
+    if (walls.periodic[0] && walls.periodic[1] && walls.periodic[2]) {
+        advance(view, p, left);
+        settle(view, p, now + left);
+        return;
+    }
     const double before = kinetic(p, walls);
     double fallen = 0; // work of gravity
     const auto height = [&] {

@@ -10,15 +10,20 @@ namespace sandlane::laws {
 struct CellAxis {
     double lower = 0, inverse_edge = 0; // m, 1/m
     double last = 0;                    // cells - 1
-    double inverse_tile = 1;            // 1/(cells of a tile)
+    double inverse_tile = 1;            // 1/(cells of a tile), rounded up
     double step = 0, jump = 0;
 };
 
+// place: at `lower` or above; beyond the upper side it is the last cell.
 template <class R> SANDLANE_INLINE R cell_number(const CellAxis& axis, const R& place) {
-    const R at = whole((place - R(axis.lower)) * R(axis.inverse_edge));
-    const R cell = max(min(at, R(axis.last)), R(0.0));
-    const R tile = whole((cell + R(0.5)) * R(axis.inverse_tile));
+    const R cell = min(whole((place - R(axis.lower)) * R(axis.inverse_edge)), R(axis.last));
+    const R tile = whole(cell * R(axis.inverse_tile));
     return cell * R(axis.step) + tile * R(axis.jump);
+}
+
+// Anywhere: walls that oscillate go beyond the sides.
+template <class R> SANDLANE_INLINE R nearest_cell_number(const CellAxis& axis, const R& place) {
+    return cell_number(axis, max(place, R(axis.lower)));
 }
 
 } // namespace sandlane::laws

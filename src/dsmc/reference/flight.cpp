@@ -27,7 +27,8 @@ void copy(const GasRows& from, std::int32_t i, const GasRows& to, std::int32_t j
 } // namespace
 
 std::int32_t sort_gas(const SortView& view) {
-    std::fill_n(view.start, view.cells + 2, 0);
+    std::int32_t* next = view.next[0];
+    std::fill_n(view.start, view.cells + 1, 0);
     const auto for_each = [&](const auto& body) {
         for (std::int32_t s = 0; s < view.segment_count; ++s)
             for (std::int32_t i = 0; i < view.segments[s].count; ++i) {
@@ -36,12 +37,15 @@ std::int32_t sort_gas(const SortView& view) {
                 if (c >= 0 && c < view.cells) body(view.segments[s], i, c);
             }
     };
-    for_each([&](const GasSegment&, std::int32_t, std::int32_t c) { ++view.start[c + 2]; });
-    for (std::int32_t c = 2; c < view.cells + 2; ++c) view.start[c] += view.start[c - 1];
+    for_each([&](const GasSegment&, std::int32_t, std::int32_t c) { ++view.start[c + 1]; });
+    for (std::int32_t c = 0; c < view.cells; ++c) {
+        next[c] = view.start[c];
+        view.start[c + 1] += view.start[c];
+    }
     for_each([&](const GasSegment& from, std::int32_t i, std::int32_t c) {
         const GasRows rows{const_cast<double*>(from.place), const_cast<double*>(from.velocity),
                            const_cast<double*>(from.spin)};
-        copy(rows, i, view.to, view.start[c + 1]++);
+        copy(rows, i, view.to, next[c]++);
     });
     return view.start[view.cells];
 }
@@ -75,8 +79,8 @@ template <int dimension> GasFlight fly_gas(const GasFlightView& view) {
             if (view.durations[second ? 1 : 0] > 0) fly_to_walls(view, place, velocity, spin, second, result);
         std::int32_t cell = view.first_cell;
         if (view.sort) {
-            double number = laws::cell_number(view.axis[0], place[0]);
-            for (int d = 1; d < dimension; ++d) number += laws::cell_number(view.axis[d], place[d]);
+            double number = laws::nearest_cell_number(view.axis[0], place[0]);
+            for (int d = 1; d < dimension; ++d) number += laws::nearest_cell_number(view.axis[d], place[d]);
             cell = static_cast<std::int32_t>(number);
             std::memcpy(reinterpret_cast<char*>(place + 3) + 4, &cell, sizeof cell);
         }
