@@ -69,10 +69,7 @@ struct GasCollisionView {
     GasRows rows; // sorted; eight more rows of velocity and spin may be read
     const std::int32_t* start;
     std::int32_t first_cell, cells;
-    // Room for the lists of a tile: of cells + 8 numbers, and of rows + 8.
-    double* majorant;         // by cell
-    std::int32_t* candidates; // by cell
-    std::int32_t* list[4];
+    double* list[7]; // room for cells + 16 numbers each
     GasScheme scheme;
     // F S dt/(2 V): mean number of candidates = rate N (N - 1) g_max; S = pi s^2 or 2 s.
     double rate;
@@ -119,7 +116,6 @@ struct GasFlight {
     std::int32_t stay = 0, leave = 0;
     std::int64_t stuck = 0; // particles that hit walls more than 64 times in one flight
     double square_sum = 0;  // of the velocities, (m/s)^2, before the flight
-    double fastest2 = 0;    // the largest square
     double wall_energy = 0; // that walls gave, per mass
 };
 using GasFly = GasFlight (*)(const GasFlightView&);

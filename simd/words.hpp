@@ -197,24 +197,59 @@ template <class A> SANDLANE_INLINE Block<A> whole(const Block<A>& x) {
 
 template <class A> struct PhiloxLanes { Words<A> w[4]; };
 
-template <class A>
-SANDLANE_INLINE PhiloxLanes<A> philox(const Words<A>& c0, const Words<A>& c1, std::uint32_t c2,
-                                      std::uint32_t c3, const std::uint32_t* key) {
-    const Words<A> m0(0xD2511F53u), m1(0xCD9E8D57u), low(0xffffffffu);
-    Words<A> a = c0, b = c1, c(c2), d(c3);
-    std::uint32_t k0 = key[0], k1 = key[1];
-    for (int round = 0; round < 10; ++round) {
-        const Words<A> p0 = product(m0, a), p1 = product(m1, c);
-        // What stands in the upper halves does not reach the products; it is cut off at the end.
-        a = right<32>(p1) ^ b ^ Words<A>(k0);
-        b = p1;
-        c = right<32>(p0) ^ d ^ Words<A>(k1);
-        d = p0;
-        k0 += 0x9E3779B9u;
-        k1 += 0xBB67AE85u;
+// For counters (c0, lane, c2, c3): what does not depend on the lane is computed once.
+class Philox {
+public:
+    SANDLANE_INLINE Philox(std::uint32_t c0, std::uint32_t c2, std::uint32_t c3, const std::uint32_t* key) {
+        std::uint32_t k0 = key[0], k1 = key[1];
+        for (int round = 0; round < rounds; ++round) {
+            key_[round][0] = k0;
+            key_[round][1] = k1;
+            k0 += 0x9E3779B9u;
+            k1 += 0xBB67AE85u;
+        }
+        set(c0, c2, c3);
     }
-    return {{a & low, b & low, c & low, d & low}};
-}
+    // Other words of the counter, the same key.
+    SANDLANE_INLINE void set(std::uint32_t c0, std::uint32_t c2, std::uint32_t c3) {
+        const std::uint64_t p0 = m0 * c0, p1 = m1 * c2;
+        // Of the first round the lane changes only the first word, of the second only the last two.
+        first_ = high(p1) ^ key_[0][0];
+        const std::uint64_t b = low(p1), c = high(p0) ^ c3 ^ key_[0][1], d = low(p0);
+        const std::uint64_t q = m1 * c;
+        const std::uint64_t a2 = high(q) ^ b ^ key_[1][0], b2 = low(q);
+        third_ = d ^ key_[1][1];
+        // Of the third round, its first product.
+        const std::uint64_t r = m0 * a2;
+        high_ = high(r) ^ key_[2][1];
+        low_ = low(r);
+        second_ = b2 ^ key_[2][0];
+    }
+    template <class A> SANDLANE_INLINE PhiloxLanes<A> operator()(const Words<A>& lane) const {
+        using W = Words<A>;
+        const W product0(m0), product1(m1), mask(0xffffffffu);
+        const W p = product(product0, lane ^ W(first_)); // second round
+        // What stands in the upper halves does not reach the products; it is cut off at the end.
+        const W q = product(product1, right<32>(p) ^ W(third_)); // third round
+        W a = right<32>(q) ^ W(second_), b = q, c = p ^ W(high_), d(low_);
+        for (int round = 3; round < rounds; ++round) {
+            const W p0 = product(product0, a), p1 = product(product1, c);
+            a = right<32>(p1) ^ b ^ W(key_[round][0]);
+            b = p1;
+            c = right<32>(p0) ^ d ^ W(key_[round][1]);
+            d = p0;
+        }
+        return {{a & mask, b & mask, c & mask, d & mask}};
+    }
+
+private:
+    static constexpr int rounds = 10;
+    static constexpr std::uint64_t m0 = 0xD2511F53u, m1 = 0xCD9E8D57u;
+    static SANDLANE_INLINE std::uint64_t high(std::uint64_t p) { return p >> 32; }
+    static SANDLANE_INLINE std::uint64_t low(std::uint64_t p) { return p & 0xffffffffu; }
+
+    std::uint64_t key_[rounds][2], first_, second_, third_, high_, low_;
+};
 
 // The number in [0, 1) of 53 bits of two words, as unit_number of core/rng.hpp.
 template <class A> SANDLANE_INLINE Block<A> unit_number(const Words<A>& high, const Words<A>& low) {

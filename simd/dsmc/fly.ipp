@@ -49,8 +49,8 @@ SANDLANE_INLINE void kick(const GasFlightView& view, const Block<Arch>& word, Bl
     const W id = words_of(word) & W(0xffffffffu);
     for (std::uint32_t block = 0; block < 2; ++block) {
         if (2 * static_cast<int>(block) >= dimension) break;
-        const PhiloxLanes<Arch> draw = philox<Arch>(W(block), id, view.random.step,
-                                                    view.random.last_word(GasStream::kick), view.random.key);
+        const PhiloxLanes<Arch> draw =
+            Philox(block, view.random.step, view.random.last_word(GasStream::kick), view.random.key)(id);
         const R radius =
             R(view.kick) * sqrt(R(-2.0) * laws::logarithm(R(1.0) - unit_number(draw.w[0], draw.w[1])));
         R sine, cosine;
@@ -119,13 +119,32 @@ SANDLANE_INLINE void store_lane(const Block<Arch> (&field)[gas_row], int lane, d
     }
 }
 
+// Eight particles of which lane `leaver` is the first that leaves.
+template <class Arch, bool rough>
+SANDLANE_INLINE void settle_from(const GasFlightView& view, const Block<Arch> (&x)[gas_row],
+                                 const Block<Arch> (&v)[gas_row], std::int32_t first, int leaver,
+                                 GasFlight& result) {
+    alignas(64) double places[width * gas_row], velocities[width * gas_row], spins[width * gas_row];
+    if constexpr (rough) copy_rows<Arch>(spins, view.from.spin + std::ptrdiff_t{first} * gas_row);
+    store_rows(x, places);
+    store_rows(v, velocities);
+    const std::ptrdiff_t at = std::ptrdiff_t{result.stay} * gas_row;
+    copy_rows<Arch>(view.stay.place + at, places);
+    copy_rows<Arch>(view.stay.velocity + at, velocities);
+    if constexpr (rough) copy_rows<Arch>(view.stay.spin + at, spins);
+    result.stay += leaver;
+    for (int l = leaver; l < width; ++l)
+        put_particle<Arch, rough>(view, places + l * gas_row, velocities + l * gas_row, spins + l * gas_row,
+                                  result);
+}
+
 template <class Arch, int dimension, bool rough>
 SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& given) {
     const GasFlightView view = given; // which no store can change
     using R = Block<Arch>;
     using W = Words<Arch>;
     GasFlight result;
-    R squares(0.0), fastest(0.0);
+    R squares(0.0);
     const R first_cell(view.first_cell), last_cell(view.first_cell + view.cells);
     const bool changes = view.falls || view.kick > 0;
     for (std::int32_t first = 0; first < view.count; first += width) {
@@ -138,9 +157,7 @@ SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& given) {
         if (view.kick > 0) kick<Arch, dimension>(view, x[3], v);
         R square = v[0] * v[0];
         for (int d = 1; d < dimension; ++d) square = square + v[d] * v[d];
-        square = first_lanes(lanes, square);
-        squares = squares + square;
-        fastest = max(square, fastest);
+        squares = squares + first_lanes(lanes, square);
         if (changes)
             for (int d = 0; d < gas_row; ++d) started[d] = v[d];
         const unsigned at_walls = fly_freely<Arch, dimension>(view, x, v);
@@ -162,6 +179,10 @@ SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& given) {
             result.stay += width;
             continue;
         }
+        if (lanes == width && at_walls == 0) { // some leave
+            settle_from<Arch, rough>(view, x, v, first, __builtin_ctz(leaves), result);
+            continue;
+        }
         alignas(64) double places[width * gas_row], velocities[width * gas_row], none[gas_row];
         store_rows(x, places);
         store_rows(v, velocities);
@@ -178,7 +199,6 @@ SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& given) {
         }
     }
     result.square_sum = sum_of_lanes(squares);
-    result.fastest2 = largest(fastest);
     return result;
 }
 

@@ -36,6 +36,36 @@ SANDLANE_INLINE void store_rows(const Block<xsimd::avx512bw> (&field)[4], double
 }
 #endif
 
+// Eight rows at byte offsets, and back for the first `lanes` of them.
+template <class Arch>
+SANDLANE_INLINE void gather_rows(const double* base, const std::uint64_t* offset, Block<Arch> (&field)[4]) {
+    alignas(64) double rows[4 * width];
+    for (int l = 0; l < width; ++l)
+        std::memcpy(rows + 4 * l, reinterpret_cast<const char*>(base) + offset[l], 4 * sizeof(double));
+    Rows<Arch, 4>::load(rows, field);
+}
+#if defined(__AVX512F__)
+SANDLANE_INLINE void gather_rows(const double* base, const std::uint64_t* offset,
+                                 Block<xsimd::avx512bw> (&field)[4]) {
+    const auto row = [&](int l) {
+        return _mm256_loadu_pd(
+            reinterpret_cast<const double*>(reinterpret_cast<const char*>(base) + offset[l]));
+    };
+    __m512d r[4];
+    for (int n = 0; n < 4; ++n)
+        r[n] = _mm512_insertf64x4(_mm512_castpd256_pd512(row(2 * n)), row(2 * n + 1), 1);
+    Rows<xsimd::avx512bw, 4>::columns(r, field);
+}
+#endif
+template <class Arch>
+SANDLANE_INLINE void scatter_rows(const Block<Arch> (&field)[4], double* base, const std::uint64_t* offset,
+                                  int lanes) {
+    alignas(64) double rows[4 * width];
+    store_rows(field, rows);
+    for (int l = 0; l < lanes; ++l)
+        std::memcpy(reinterpret_cast<char*>(base) + offset[l], rows + 4 * l, 4 * sizeof(double));
+}
+
 // Of pairs of rows in two blocks: largest of the first less smallest of the second, by column.
 template <class Arch>
 SANDLANE_INLINE void store_extent(const Block<Arch>& high, const Block<Arch>& low, double* row) {

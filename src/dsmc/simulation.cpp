@@ -70,8 +70,7 @@ simd::GasRows Simulation::Rows::view() {
 void Simulation::Scratch::require(std::size_t rows, bool rough) {
     sorted.require(rows, rough, false);
     leaving.require(rows, rough, false);
-    for (auto& list : lists)
-        if (list.size() < rows + spare_rows + 16) list.resize(rows + rows / 8 + spare_rows + 16);
+    if (targets.size() < rows) targets.resize(rows + rows / 8);
 }
 
 Simulation::Simulation(const Setup& setup, const std::vector<Particle>& particles, simd::Isa isa, int threads)
@@ -97,8 +96,6 @@ Simulation::Simulation(const Setup& setup, const std::vector<Particle>& particle
     for (Scratch& s : scratch_) {
         s.start.resize(cells + 1);
         for (auto& next : s.next) next.resize(cells);
-        s.candidates.resize(cells + 8);
-        s.majorant.resize(cells + 8);
         s.slot.resize(static_cast<std::size_t>(tiling_.slots()) + 1);
         for (auto& list : s.lists) list.resize(cells + 16);
     }
@@ -309,9 +306,7 @@ void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) const
     view.start = scratch.start.data();
     view.first_cell = tiling_.first_cell(t);
     view.cells = tiling_.cells_per_tile();
-    view.majorant = scratch.majorant.data();
-    view.candidates = scratch.candidates.data();
-    for (int n = 0; n < 4; ++n) view.list[n] = scratch.lists[n].data();
+    for (int n = 0; n < 7; ++n) view.list[n] = scratch.lists[n].data();
     view.scheme = setup_.scheme;
     view.rate = 0.5 * setup_.weight * setup_.cross_section() * dt_ / setup_.cell_volume();
     view.margin = setup_.margin;
@@ -336,7 +331,7 @@ void Simulation::send(std::int32_t t, Scratch& scratch, Result& result) {
     std::vector<std::int32_t>& next = scratch.slot;
     std::fill(next.begin(), next.end(), 0);
     const std::int32_t cells = tiling_.cells_per_tile();
-    std::int32_t* slots = scratch.lists[0].data();
+    std::int32_t* slots = scratch.targets.data();
     for (std::int32_t i = 0; i < count; ++i) {
         slots[i] = tiling_.slot(t, cell_of(leaving, i) / cells);
         ++next[static_cast<std::size_t>(slots[i]) + 1];
@@ -356,9 +351,9 @@ std::size_t Simulation::bytes() const {
         sum += sizeof tile + tile.rows.bytes() + tile.out[0].rows.bytes() + tile.out[1].rows.bytes() +
                2 * tile.out[0].start.size() * sizeof(std::int32_t);
     for (const Scratch& s : scratch_) {
-        sum += s.sorted.bytes() + s.leaving.bytes() + s.majorant.size() * sizeof(double);
-        sum += (s.start.size() + 2 * s.next[0].size() + s.candidates.size()) * sizeof(std::int32_t);
-        for (const auto& list : s.lists) sum += list.size() * sizeof(std::int32_t);
+        sum += s.sorted.bytes() + s.leaving.bytes();
+        sum += (s.start.size() + 2 * s.next[0].size() + s.targets.size()) * sizeof(std::int32_t);
+        for (const auto& list : s.lists) sum += list.size() * sizeof(double);
     }
     return sum;
 }

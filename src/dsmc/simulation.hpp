@@ -76,9 +76,8 @@ private:
     };
     struct Scratch {
         Rows sorted, leaving;
-        std::vector<std::int32_t> start, next[2], candidates, lists[4];
-        std::vector<double> majorant;
-        std::vector<std::int32_t> slot;
+        std::vector<std::int32_t> start, next[2], slot, targets;
+        std::vector<double> lists[7];
         std::vector<simd::GasSegment> segments;
         void require(std::size_t rows, bool rough);
     };

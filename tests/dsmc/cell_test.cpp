@@ -13,22 +13,19 @@ namespace {
 
 // A tile of equal cells with rows that a test fills.
 struct Tile {
-    std::vector<double> place, velocity, spin, majorant;
-    std::vector<std::int32_t> start, candidates, lists[4];
+    std::vector<double> place, velocity, spin, lists[7];
+    std::vector<std::int32_t> start;
     simd::GasCollisionView view{};
 
     Tile(std::int32_t cells, std::int32_t per_cell)
         : place(rows(cells * per_cell)), velocity(rows(cells * per_cell)), spin(rows(cells * per_cell)),
-          majorant(static_cast<std::size_t>(cells) + 8), start(static_cast<std::size_t>(cells) + 2),
-          candidates(static_cast<std::size_t>(cells) + 8) {
+          start(static_cast<std::size_t>(cells) + 2) {
         for (std::int32_t c = 0; c <= cells; ++c) start[static_cast<std::size_t>(c)] = c * per_cell;
         for (auto& list : lists) list.resize(static_cast<std::size_t>(cells) + 16);
         view.rows = {place.data(), velocity.data(), spin.data()};
         view.start = start.data();
         view.cells = cells;
-        view.majorant = majorant.data();
-        view.candidates = candidates.data();
-        for (int n = 0; n < 4; ++n) view.list[n] = lists[n].data();
+        for (int n = 0; n < 7; ++n) view.list[n] = lists[n].data();
         view.margin = 1.1;
         view.restitution.eps = 1;
         view.tangential = 1;

@@ -74,7 +74,6 @@ template <int dimension> GasFlight fly_gas(const GasFlightView& view) {
         double square = velocity[0] * velocity[0];
         for (int d = 1; d < dimension; ++d) square += velocity[d] * velocity[d];
         squares[i % 8] += square;
-        result.fastest2 = std::max(result.fastest2, square);
         for (const bool second : {false, true})
             if (view.durations[second ? 1 : 0] > 0) fly_to_walls(view, place, velocity, spin, second, result);
         std::int32_t cell = view.first_cell;
