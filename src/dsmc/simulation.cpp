@@ -167,11 +167,12 @@ simd::GasRandom Simulation::random() const {
 
 // ---- a step
 
-void Simulation::run(std::int64_t steps) {
-    if (steps <= 0) return;
+void Simulation::run(std::int64_t steps, double until) {
+    if (steps <= 0 || time_ >= until) return;
     setup_.walls.time[1] = time_;
     pass({false, true});
-    for (std::int64_t n = 0; n < steps; ++n) {
+    bool last = false;
+    for (std::int64_t n = 1; !last; ++n) {
         time_ += 0.5 * next_dt_; // to the collisions
         dt_ = next_dt_;
         ++step_;
@@ -179,7 +180,8 @@ void Simulation::run(std::int64_t steps) {
         setup_.walls.time[0] = time_;
         time_ += 0.5 * dt_; // to the middle between them
         setup_.walls.time[1] = time_;
-        pass({true, n + 1 < steps});
+        last = n == steps || time_ >= until;
+        pass({true, !last});
     }
 }
 

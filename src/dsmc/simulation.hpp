@@ -9,6 +9,7 @@
 #include "simd/dsmc_tables.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,10 +33,12 @@ class Simulation {
 public:
     Simulation(const Setup& setup, const std::vector<Particle>& particles, simd::Isa isa, int threads);
 
-    // Takes n steps; steps in one call or several are the same, bit for bit. The state is that of the middle
-    // of a step, half a flight after the collisions, which makes the splitting of flight and collisions
-    // second order in dt.
-    void run(std::int64_t steps);
+    // Takes n steps, or so many that time() reaches `until`; steps in one call or several are the same, bit
+    // for bit. The state is that of the middle of a step, half a flight after the collisions, which makes the
+    // splitting of flight and collisions second order in dt.
+    void run(std::int64_t steps, double until = std::numeric_limits<double>::infinity());
+    // Goes on with the kernels of another instruction set.
+    void use(simd::Isa isa) { kernels_ = &simd::dsmc_kernels(isa); }
 
     [[nodiscard]] std::int64_t step() const { return step_; }
     [[nodiscard]] double time() const { return time_; }

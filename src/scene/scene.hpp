@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/vec.hpp"
+#include "scene/gas.hpp"
 
 #include <array>
 #include <cstdint>
@@ -250,6 +251,9 @@ struct Scene {
     std::vector<Sink> sinks;
     std::vector<Motion> motions;
     Md md;
+    Gas gas;
+    std::vector<GasSide> sides;
+    Dsmc dsmc;
     std::vector<AnalysisSpec> analyses;
     Output output;
 };

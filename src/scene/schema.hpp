@@ -112,6 +112,9 @@ const Table<Wall>& wall_table();
 const Table<Sink>& sink_table();
 const Table<Motion>& motion_table();
 const Table<Md>& md_table();
+const Table<Gas>& gas_table();
+const Table<GasSide>& side_table();
+const Table<Dsmc>& dsmc_table();
 const Table<AnalysisSpec>& analysis_table();
 const Table<Output>& output_table();
 const Table<Scene>& scene_table(); // the keys outside any table
