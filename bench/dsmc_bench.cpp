@@ -74,6 +74,12 @@ void step(benchmark::State& state, const Case& c) {
     state.counters["violations"] =
         static_cast<double>(after.violations - before.violations) /
         static_cast<double>(std::max<std::int64_t>(1, after.candidates - before.candidates));
+    // The rows of a particle are read and written once per step; sorting and colliding go on in the cache.
+    const double bytes = 2.0 * (c.setup.rough ? 96 : 64);
+    const double bound = bench::bandwidth(c.isa, c.threads, simulation->bytes()) / bytes;
+    state.counters["bytes_per_step"] = bytes;
+    state.counters["bound_bytes"] = bound;
+    state.counters["of_bound"] = rate / bound;
     state.counters["bytes_per_particle"] = static_cast<double>(simulation->bytes()) / c.particles;
 }
 

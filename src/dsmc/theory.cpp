@@ -94,7 +94,6 @@ std::vector<double> cooling_curve(const Setup& setup, std::size_t particles, dou
 }
 
 double adaptive_steps(const Setup& setup, std::size_t particles, double temperature, double duration) {
-    if (setup.rough) return duration / setup.dt;
     const Cooling cooling(setup, particles);
     double steps = 0, before = temperature;
     follow(cooling, temperature, duration, [&](double, double dt, double t) {

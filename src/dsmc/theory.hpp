@@ -15,7 +15,7 @@ namespace sandlane::dsmc {
 // restitution (specification of Monte Carlo, 7.2-7.7). Smooth particles; NaN for rough ones.
 [[nodiscard]] std::vector<double> cooling_curve(const Setup& setup, std::size_t particles, double temperature,
                                                 const std::vector<double>& times);
-// Number of steps until `duration` where the time step follows the temperature.
+// Number of steps until `duration` where the time step follows the temperature, about.
 [[nodiscard]] double adaptive_steps(const Setup& setup, std::size_t particles, double temperature,
                                     double duration);
 

@@ -32,6 +32,9 @@ private:
     constexpr explicit EngineSet(unsigned bits) : bits_(bits) {}
     unsigned bits_;
 };
+constexpr EngineSet operator|(Engine a, Engine b) {
+    return EngineSet(a) | EngineSet(b);
+}
 inline constexpr EngineSet every_engine = EngineSet::all();
 
 enum class NormalLaw {
