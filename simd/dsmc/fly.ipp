@@ -42,23 +42,38 @@ SANDLANE_INLINE unsigned fly_freely(const GasFlightView& view, Block<Arch> (&x)[
     return ~bits(safe) & 0xffu;
 }
 
-template <class Arch, int dimension>
-SANDLANE_INLINE void kick(const GasFlightView& view, const Block<Arch>& word, Block<Arch> (&v)[gas_row]) {
-    using R = Block<Arch>;
-    using W = Words<Arch>;
-    const W id = words_of(word) & W(0xffffffffu);
-    for (std::uint32_t block = 0; block < 2; ++block) {
-        if (2 * static_cast<int>(block) >= dimension) break;
-        const PhiloxLanes<Arch> draw =
-            Philox(block, view.random.step, view.random.last_word(GasStream::kick), view.random.key)(id);
-        const R radius =
-            R(view.kick) * sqrt(R(-2.0) * laws::logarithm(R(1.0) - unit_number(draw.w[0], draw.w[1])));
+// Random kicks of the thermostat: two components from each block of random numbers.
+class Kicks {
+public:
+    SANDLANE_INLINE explicit Kicks(const GasFlightView& view)
+        : first_(block(view, 0)), second_(block(view, 1)), deviation_(view.kick) {}
+
+    template <class Arch, int dimension>
+    SANDLANE_INLINE void add(const Block<Arch>& word, Block<Arch> (&v)[gas_row]) const {
+        const Words<Arch> id = words_of(word) & Words<Arch>(0xffffffffu);
+        add_pair(first_(id), v[0], v[1]);
+        Block<Arch> unused(0.0);
+        if constexpr (dimension == 3) add_pair(second_(id), v[2], unused);
+    }
+
+private:
+    static SANDLANE_INLINE Philox block(const GasFlightView& view, std::uint32_t n) {
+        return Philox(n, view.random.step, view.random.last_word(GasStream::kick), view.random.key);
+    }
+    template <class Arch>
+    SANDLANE_INLINE void add_pair(const PhiloxLanes<Arch>& draw, Block<Arch>& a, Block<Arch>& b) const {
+        using R = Block<Arch>;
+        const R u = unit_number(draw.w[0], draw.w[1]);
+        const R radius = R(deviation_) * sqrt(R(-2.0) * laws::logarithm(R(1.0) - u));
         R sine, cosine;
         laws::sine_cosine_of_turn(unit_number(draw.w[2], draw.w[3]), sine, cosine);
-        v[2 * block] = v[2 * block] + radius * cosine;
-        if (2 * static_cast<int>(block) + 1 < dimension) v[2 * block + 1] = v[2 * block + 1] + radius * sine;
+        a = a + radius * cosine;
+        b = b + radius * sine;
     }
-}
+
+    Philox first_, second_;
+    double deviation_;
+};
 
 template <class Arch> SANDLANE_INLINE double sum_of_lanes(const Block<Arch>& b) {
     double l[width];
@@ -147,6 +162,7 @@ SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& given) {
     R squares(0.0);
     const R first_cell(view.first_cell), last_cell(view.first_cell + view.cells);
     const bool changes = view.falls || view.kick > 0;
+    const Kicks kicks(view);
     for (std::int32_t first = 0; first < view.count; first += width) {
         const std::int32_t lanes = view.count - first < width ? view.count - first : width;
         const double* place = view.from.place + std::ptrdiff_t{first} * gas_row;
@@ -154,7 +170,7 @@ SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& given) {
         R x[gas_row], v[gas_row], started[gas_row];
         Rows<Arch, gas_row>::load(place, x);
         Rows<Arch, gas_row>::load(velocity, v);
-        if (view.kick > 0) kick<Arch, dimension>(view, x[3], v);
+        if (view.kick > 0) kicks.template add<Arch, dimension>(x[3], v);
         R square = v[0] * v[0];
         for (int d = 1; d < dimension; ++d) square = square + v[d] * v[d];
         squares = squares + first_lanes(lanes, square);

@@ -65,7 +65,8 @@ TEST_F(Gas, RunsAndLeavesItsFiles) {
 TEST_F(Gas, PicturesAndTrajectoriesOnDemand) {
     write("gas.toml", gas_scene);
     run_well({"run", "gas.toml", "--quiet", "--set", "output.picture_every=10", "--set",
-              "output.trajectory_every=10", "--set", "output.movie=false"});
+              "output.trajectory_every=10", "--set", "output.picture_width=64", "--set",
+              "output.movie=false"});
     EXPECT_TRUE(fs::exists(path("results/gas/pictures/000000.png")));
     EXPECT_TRUE(fs::exists(path("results/gas/trajectory.dump")));
     run_well({"render", latest_checkpoint("results/gas"), "end.png"});
