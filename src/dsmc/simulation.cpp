@@ -330,7 +330,7 @@ void Simulation::send(std::int32_t t, Scratch& scratch, Result& result) {
     Outbox& out = tiles_[static_cast<std::size_t>(t)].out[1 - parity_];
     const simd::GasRows leaving = scratch.leaving.view();
     const std::int32_t count = result.flight.leave;
-    std::vector<std::int32_t>& next = scratch.slot;
+    Column<std::int32_t>& next = scratch.slot;
     std::fill(next.begin(), next.end(), 0);
     const std::int32_t cells = tiling_.cells_per_tile();
     std::int32_t* slots = scratch.targets.data();
@@ -338,7 +338,7 @@ void Simulation::send(std::int32_t t, Scratch& scratch, Result& result) {
         slots[i] = tiling_.slot(t, cell_of(leaving, i) / cells);
         ++next[static_cast<std::size_t>(slots[i]) + 1];
     }
-    result.far = next.back();
+    result.far = next[next.size() - 1];
     for (std::size_t s = 1; s < next.size(); ++s) next[s] += next[s - 1];
     std::copy(next.begin(), next.end(), out.start.begin());
     out.rows.require(static_cast<std::size_t>(count), setup_.rough, false);

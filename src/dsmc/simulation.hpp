@@ -72,19 +72,20 @@ private:
         Rows rows;
         std::vector<std::int32_t> start;
     };
-    struct Tile {
+    struct alignas(column_alignment) Tile {
         Rows rows;
         std::int32_t count = 0;
         Outbox out[2];
     };
-    struct Scratch {
+    // Of a thread. Aligned columns, so that no two threads write to one line of the cache.
+    struct alignas(column_alignment) Scratch {
         Rows sorted, leaving;
-        std::vector<std::int32_t> start, next[2], slot, targets;
-        std::vector<double> lists[7];
+        Column<std::int32_t> start, next[2], slot, targets;
+        Column<double> lists[7];
         std::vector<simd::GasSegment> segments;
         void require(std::size_t rows, bool rough);
     };
-    struct Result {
+    struct alignas(column_alignment) Result {
         simd::GasCollisions collisions;
         simd::GasFlight flight;
         std::int64_t far = 0;

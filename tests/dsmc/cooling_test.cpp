@@ -52,13 +52,14 @@ TEST(Cooling, FewParticlesPerCell) {
     EXPECT_NEAR(static_cast<double>(gas.counts().collisions) / expected, 1, 4 / std::sqrt(expected) + 0.002);
 }
 
-// T^{-1/2} is a straight line of slope 1/tau; 0.5 % (specification 10.4), after a2 has relaxed.
+// T^{-1/2} is a straight line of slope 1/tau; 0.5 % (specification 10.4), after a2 has relaxed. In the plane
+// one cell: a gas of this size is unstable there.
 TEST(Cooling, HaffSlow) {
     for (const int d : {2, 3})
         for (const double eps : {0.8, 0.9}) {
             const std::uint32_t n = 60000;
             dsmc::Setup s = test::gas(d, eps, n, 1);
-            for (int c = 0; c < d; ++c) s.cells[c] = d == 3 ? 13 : 50;
+            for (int c = 0; c < d; ++c) s.cells[c] = d == 3 ? 13 : 1;
             s.adaptive = true;
             s.dt = 0.1;
             dsmc::Simulation gas = simulate(s, n);
