@@ -134,7 +134,8 @@ class Liggghts(Program):
     name, command = "LIGGGHTS", "liggghts"
 
     def version(self):
-        text = subprocess.run([self.command, "-h"], capture_output=True, text=True).stdout
+        # It leaves a log wherever it is asked.
+        text = subprocess.run([self.command, "-log", "none", "-h"], capture_output=True, text=True).stdout
         return re.search(r"PUBLIC (\S+),", text)[1]
 
     def write(self, case, law_name, box, grains):

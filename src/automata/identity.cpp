@@ -134,8 +134,8 @@ bool IdentitySearch::sweep() {
     return true;
 }
 
-// What has to be added is not known: twice as often every second round, and once between, to see whether that changes
-// anything.
+// What has to be added is not known: twice as often every second round, and once between, to see whether that
+// changes anything.
 void IdentitySearch::burn() {
     if (burning_) rounds_ = rounds_ + 1;
     const bool trial = rounds_ % 2 == 0;

@@ -33,7 +33,7 @@ public:
     virtual void run(std::int64_t steps) = 0;
     [[nodiscard]] virtual std::int64_t step() const = 0;
     [[nodiscard]] virtual bool finished() const { return false; } // nothing will change any more
-    [[nodiscard]] virtual std::size_t sites() const = 0; // of a heap: heaps
+    [[nodiscard]] virtual std::size_t sites() const = 0;          // of a heap: heaps
 
     // The same for every thread count and instruction set. restore() throws Error(io) for the state of
     // another lattice.

@@ -33,6 +33,12 @@ using PhiloxKey = std::array<std::uint32_t, 2>;
     return c;
 }
 
+// The number in [0, 1) that the upper 53 of 64 bits stand for.
+[[nodiscard]] constexpr double unit_number(std::uint32_t high, std::uint32_t low) {
+    const std::uint64_t bits = (std::uint64_t{high} << 32 | low) >> 11;
+    return static_cast<double>(bits) * 0x1p-53;
+}
+
 // Random numbers of one stream, e.g. one grain population; `group` separates populations.
 class Random {
 public:
@@ -45,7 +51,7 @@ public:
         const PhiloxCounter r = philox(
             {static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), stream_, group_},
             key_);
-        return {to_unit(r[0], r[1]), to_unit(r[2], r[3])};
+        return {unit_number(r[0], r[1]), unit_number(r[2], r[3])};
     }
     [[nodiscard]] double uniform(std::uint64_t index) const { return uniform2(index)[0]; }
 
@@ -70,11 +76,6 @@ public:
 
 private:
     static constexpr std::uint64_t upper_half = std::uint64_t{1} << 63;
-
-    static constexpr double to_unit(std::uint32_t high, std::uint32_t low) {
-        const std::uint64_t bits = (std::uint64_t{high} << 32 | low) >> 11;
-        return static_cast<double>(bits) * 0x1p-53;
-    }
 
     PhiloxKey key_;
     std::uint32_t stream_;

@@ -5,6 +5,7 @@
 
 #include "core/vec.hpp"
 #include "scene/automata.hpp"
+#include "scene/gas.hpp"
 
 #include <array>
 #include <cstdint>
@@ -32,6 +33,9 @@ private:
     constexpr explicit EngineSet(unsigned bits) : bits_(bits) {}
     unsigned bits_;
 };
+constexpr EngineSet operator|(Engine a, Engine b) {
+    return EngineSet(a) | EngineSet(b);
+}
 inline constexpr EngineSet every_engine = EngineSet::all();
 
 enum class NormalLaw {
@@ -260,6 +264,9 @@ struct Scene {
     LatticeGas lattice_gas;
     std::vector<Obstacle> obstacles;
     PipeFlow pipe_flow;
+    Gas gas;
+    std::vector<GasSide> sides;
+    Dsmc dsmc;
     std::vector<AnalysisSpec> analyses;
     Output output;
 };

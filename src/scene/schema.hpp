@@ -118,6 +118,9 @@ const Table<Ripples>& ripples_table();
 const Table<LatticeGas>& lattice_gas_table();
 const Table<Obstacle>& obstacle_table();
 const Table<PipeFlow>& pipe_flow_table();
+const Table<Gas>& gas_table();
+const Table<GasSide>& side_table();
+const Table<Dsmc>& dsmc_table();
 const Table<AnalysisSpec>& analysis_table();
 const Table<Output>& output_table();
 const Table<Scene>& scene_table(); // the keys outside any table

@@ -63,7 +63,7 @@ struct Declared {
 };
 
 const Declared& declared(Unit unit) {
-    static constexpr std::array<Declared, 15> table = {{{"", "0.5", {}},
+    static constexpr std::array<Declared, 17> table = {{{"", "0.5", {}},
                                                         {"m", "5 mm", {1, 0, 0}},
                                                         {"s", "2 ms", {0, 0, 1}},
                                                         {"rad", "30 deg", {}},
@@ -77,7 +77,9 @@ const Declared& declared(Unit unit) {
                                                         {"Pa", "100 MPa", {-1, 1, -2}},
                                                         {"kg/m^3", "2.5 g/cm^3", {-3, 1, 0}},
                                                         {"kg", "3 g", {0, 1, 0}},
-                                                        {"1/s", "20 Hz", {0, 0, -1}}}};
+                                                        {"1/s", "20 Hz", {0, 0, -1}},
+                                                        {"J", "1e-6 J", {2, 1, -2}},
+                                                        {"m^2/s^3", "0.01 m^2/s^3", {2, 0, -3}}}};
     return table[static_cast<std::size_t>(unit)];
 }
 

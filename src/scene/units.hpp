@@ -21,7 +21,9 @@ enum class Unit {
     pressure,
     density,
     mass,
-    rate
+    rate,
+    energy,
+    heating // of velocities by noise, m^2/s^3
 };
 
 [[nodiscard]] std::string_view unit_symbol(Unit unit); // SI: "m", "kg/m^3", ...; "" for none

@@ -1,0 +1,235 @@
+// Collisions in the cells of a tile by the method without a time counter. Candidate k of all cells is looked
+// at together: they are in different cells, so lanes never meet the same particle, and candidate k + 1 sees
+// what k did. Random numbers belong to (k, cell, step), so the result is that of one cell after the other.
+#pragma once
+
+#include "laws/collision.hpp"
+#include "simd/compress.hpp"
+#include "simd/dsmc/rows_of_four.hpp"
+#include "simd/dsmc/tables.hpp"
+#include "simd/words.hpp"
+
+#include <cstring>
+
+namespace sandlane::simd {
+
+// Extent of the velocities of n >= 2 rows, by column: no two differ by more than its diagonal.
+template <class Arch>
+SANDLANE_INLINE void velocity_extent(const double* velocity, std::int32_t n, double* row) {
+    using R = Block<Arch>; // two rows
+    R low = load<Arch>(velocity), high = low;
+    const auto take = [&](std::int32_t k) {
+        const R rows = load<Arch>(velocity + std::ptrdiff_t{k} * gas_row);
+        low = min(low, rows);
+        high = max(high, rows);
+    };
+    constexpr std::int32_t usual = 16;
+    if (n > 4 && n <= usual) { // always the same number of rows, the last ones again: no branch to mispredict
+        for (std::int32_t k = 2; k < usual; k += 2) take(k < n - 2 ? k : n - 2);
+    } else {
+        for (std::int32_t k = 2; k + 1 < n; k += 2) take(k);
+        take(n - 2);
+    }
+    store_extent(high, low, row);
+}
+
+// The cells that still have candidates, and the pairs that were accepted, as lists of numbers; whole numbers
+// and offsets as words.
+struct CandidateLists {
+    double *rows, *number, *majorant, *candidates; // rows: first row, and number of rows in the upper half
+    double *first, *second, *cell;                 // byte offsets of the velocities; number of the cell
+
+    SANDLANE_INLINE explicit CandidateLists(const GasCollisionView& view)
+        : rows(view.list[0]), number(view.list[1]), majorant(view.list[2]), candidates(view.list[3]),
+          first(view.list[4]), second(view.list[5]), cell(view.list[6]) {}
+};
+template <class Arch> SANDLANE_INLINE Words<Arch> load_words(const double* from) {
+    return words_of(load<Arch>(from));
+}
+template <class Arch> SANDLANE_INLINE void append(const Words<Arch>& words, unsigned chosen, double* to) {
+    compress(block_of(words), chosen, to);
+}
+
+// Number of candidates of every cell; fills the list of the cells that have any and returns its length.
+template <class Arch, int dimension>
+SANDLANE_INLINE std::int32_t count_candidates(const GasCollisionView& view, const Philox& random,
+                                              const CandidateLists& lists, GasCollisions& result) {
+    using R = Block<Arch>;
+    using W = Words<Arch>;
+    const double* velocity = view.rows.velocity;
+    std::int32_t active = 0;
+    for (std::int32_t first = 0; first < view.cells; first += width) {
+        alignas(64) double size[width], extents[width * gas_row];
+        alignas(64) std::uint64_t cell[width], rows[width];
+        const std::int32_t end = view.cells - first < width ? view.cells - first : width;
+        bool pairs = false;
+        for (std::int32_t l = 0; l < width; ++l) {
+            size[l] = 0;
+            rows[l] = 0;
+            cell[l] = static_cast<std::uint64_t>(view.first_cell + first + l);
+            if (l >= end) continue;
+            const std::int32_t begin = view.start[first + l], n = view.start[first + l + 1] - begin;
+            if (n < 2) continue;
+            pairs = true;
+            size[l] = n;
+            rows[l] = static_cast<std::uint64_t>(begin) | static_cast<std::uint64_t>(n) << 32;
+            velocity_extent<Arch>(velocity + std::ptrdiff_t{begin} * gas_row, n, extents + l * gas_row);
+        }
+        if (!pairs) continue;
+        R extent[gas_row];
+        Rows<Arch, gas_row>::load(extents, extent);
+        const R square = extent[0] * extent[0] + extent[1] * extent[1] + extent[2] * extent[2];
+        const R n = load<Arch>(size);
+        const R majorant = select(n > R(1.0), R(view.margin) * sqrt(square), R(0.0));
+        R mean = R(view.rate) * (n * (n - R(1.0))) * majorant;
+        if (view.packing > 0) mean = mean * laws::contact_correlation(dimension, R(view.packing) * n);
+        const W numbers = W::load(cell);
+        const PhiloxLanes<Arch> draw = random(numbers);
+        const R wanted = floor(mean + unit_number(draw.w[0], draw.w[1]));
+        const auto possible = wanted < R(most_candidates);
+        result.overflows += width - __builtin_popcount(bits(possible));
+        const unsigned chosen = bits(possible & (wanted > R(0.0)));
+        append(W::load(rows), chosen, lists.rows + active);
+        append(numbers, chosen, lists.number + active);
+        compress(majorant, chosen, lists.majorant + active);
+        compress(wanted, chosen, lists.candidates + active);
+        active += __builtin_popcount(chosen);
+    }
+    return active;
+}
+
+// Candidate k of the listed cells: appends the accepted pairs to their lists and keeps the cells that have
+// more candidates; returns the number of either.
+struct Chosen {
+    std::int32_t accepted, left;
+};
+template <class Arch, int dimension>
+SANDLANE_INLINE Chosen choose_pairs(const GasCollisionView& view, const Philox& random,
+                                    const CandidateLists& lists, std::int32_t active, std::uint32_t k,
+                                    GasCollisions& result) {
+    using R = Block<Arch>;
+    using W = Words<Arch>;
+    Chosen chosen{0, 0};
+    const R next(k + 1);
+    for (int l = 0; l < width; ++l) { // behind the last one anything valid
+        lists.rows[active + l] = lists.rows[0];
+        lists.majorant[active + l] = lists.majorant[0];
+    }
+    for (std::int32_t at = 0; at < active; at += width) {
+        const unsigned real = active - at >= width ? 0xffu : (1u << (active - at)) - 1u;
+        const W rows = load_words<Arch>(lists.rows + at), number = load_words<Arch>(lists.number + at);
+        const R most = load<Arch>(lists.majorant + at), candidates = load<Arch>(lists.candidates + at);
+        const PhiloxLanes<Arch> draw = random(number);
+        const W begin = rows & W(0xffffffffu), size = right<32>(rows);
+        const W i = right<32>(product(draw.w[0], size));
+        W j = right<32>(product(draw.w[1], size - W(1)));
+        j = j + W(1) - right<63>(j - i); // the sign bit says j < i
+        const W first = left<5>(i + begin), second = left<5>(j + begin);
+        static_assert(gas_row * sizeof(double) == 1 << 5);
+        alignas(64) std::uint64_t offsets[2][width];
+        first.store(offsets[0]);
+        second.store(offsets[1]);
+        R a[gas_row], b[gas_row];
+        gather_rows(view.rows.velocity, offsets[0], a);
+        gather_rows(view.rows.velocity, offsets[1], b);
+        const Vector<R> g{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+        const R speed = sqrt(dot(g, g));
+        const unsigned yes = bits(unit_number(draw.w[2], draw.w[3]) * most < speed) & real;
+        result.violations += __builtin_popcount(bits(speed > most) & real);
+        append(first, yes, lists.first + chosen.accepted);
+        append(second, yes, lists.second + chosen.accepted);
+        append(number, yes, lists.cell + chosen.accepted);
+        chosen.accepted += __builtin_popcount(yes);
+        const unsigned more = bits(candidates > next) & real;
+        append(rows, more, lists.rows + chosen.left);
+        append(number, more, lists.number + chosen.left);
+        compress(most, more, lists.majorant + chosen.left);
+        compress(candidates, more, lists.candidates + chosen.left);
+        chosen.left += __builtin_popcount(more);
+    }
+    return chosen;
+}
+
+// Collisions of the accepted pairs from `at` on, up to eight. They share no particle.
+template <class Arch, int dimension, bool rough>
+SANDLANE_INLINE void collide_pairs(const GasCollisionView& view, const Philox& random,
+                                   const CandidateLists& lists, std::int32_t at, std::int32_t lanes) {
+    using R = Block<Arch>;
+    alignas(64) std::uint64_t first[width], second[width];
+    load_words<Arch>(lists.first + at).store(first);
+    load_words<Arch>(lists.second + at).store(second);
+    const PhiloxLanes<Arch> draw = random(load_words<Arch>(lists.cell + at));
+    const R u1 = unit_number(draw.w[0], draw.w[1]);
+    R a[gas_row], b[gas_row];
+    gather_rows(view.rows.velocity, first, a);
+    gather_rows(view.rows.velocity, second, b);
+    const Vector<R> g{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    const R speed = sqrt(dot(g, g));
+    Vector<R> e;
+    if constexpr (dimension == 3) {
+        R sine, cosine;
+        laws::sine_cosine_of_turn(unit_number(draw.w[2], draw.w[3]), sine, cosine);
+        e = laws::direction_in_space(g, speed, u1, sine, cosine);
+    } else {
+        e = laws::direction_in_plane(g, speed, u1);
+    }
+    const R normal = dot(g, e), eps = laws::restitution(view.restitution, -normal);
+    Vector<R> push;
+    if constexpr (rough) {
+        R s[gas_row], t[gas_row];
+        gather_rows(view.rows.spin, first, s);
+        gather_rows(view.rows.spin, second, t);
+        const R radius(view.radius);
+        const Vector<R> spin{radius * (s[0] + t[0]), radius * (s[1] + t[1]), radius * (s[2] + t[2])};
+        const Vector<R> contact = g - cross(spin, e);
+        R tangential(view.tangential);
+        if (view.friction > 0) {
+            const R along = dot(contact, e);
+            const Vector<R> across = contact - along * e;
+            tangential = laws::sliding_restitution(tangential, R(view.friction), eps, R(view.mass_ratio),
+                                                   -along, sqrt(dot(across, across)));
+        }
+        push = laws::impulse(contact, e, eps, tangential, R(view.mass_ratio));
+        const Vector<R> turn = R(0.5 / (view.inertia * view.radius)) * cross(e, push);
+        s[0] = s[0] - turn.x, s[1] = s[1] - turn.y, s[2] = s[2] - turn.z;
+        t[0] = t[0] - turn.x, t[1] = t[1] - turn.y, t[2] = t[2] - turn.z;
+        scatter_rows(s, view.rows.spin, first, lanes);
+        scatter_rows(t, view.rows.spin, second, lanes);
+    } else {
+        push = laws::smooth_impulse(normal, e, eps);
+    }
+    const Vector<R> change = R(0.5) * push;
+    a[0] = a[0] + change.x, a[1] = a[1] + change.y, a[2] = a[2] + change.z;
+    b[0] = b[0] - change.x, b[1] = b[1] - change.y, b[2] = b[2] - change.z;
+    scatter_rows(a, view.rows.velocity, first, lanes);
+    scatter_rows(b, view.rows.velocity, second, lanes);
+}
+
+template <class Arch, int dimension, bool rough> GasCollisions collide_gas(const GasCollisionView& given) {
+    const GasCollisionView view = given; // which no store can change
+    const CandidateLists lists(view);
+    const auto random = [&](std::uint32_t k, GasStream stream) {
+        return Philox(k, view.random.step, view.random.last_word(stream), view.random.key);
+    };
+    GasCollisions result;
+    std::int32_t active =
+        count_candidates<Arch, dimension>(view, random(0, GasStream::rounding), lists, result);
+    for (std::uint32_t k = 0; active > 0; ++k) {
+        result.candidates += active;
+        const Chosen chosen =
+            choose_pairs<Arch, dimension>(view, random(k, GasStream::candidate), lists, active, k, result);
+        const Philox geometry = random(k, GasStream::geometry);
+        for (int l = 0; l < width; ++l) { // behind the last one anything valid
+            lists.first[chosen.accepted + l] = lists.first[0];
+            lists.second[chosen.accepted + l] = lists.second[0];
+        }
+        for (std::int32_t at = 0; at < chosen.accepted; at += width)
+            collide_pairs<Arch, dimension, rough>(
+                view, geometry, lists, at, chosen.accepted - at < width ? chosen.accepted - at : width);
+        result.collisions += chosen.accepted;
+        active = chosen.left;
+    }
+    return result;
+}
+
+} // namespace sandlane::simd

@@ -1,0 +1,273 @@
+#include "app/dsmc_engine.hpp"
+
+#include "app/commands.hpp"
+#include "app/dsmc_recorder.hpp"
+#include "app/json.hpp"
+#include "core/error.hpp"
+#include "dsmc/theory.hpp"
+#include "output/picture.hpp"
+#include "scene/schema.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sandlane::app {
+
+namespace {
+
+std::vector<dsmc::Particle> start_of(const scene::Scene& scene, const dsmc::Plan& plan) {
+    return dsmc::maxwellian(plan.setup, static_cast<std::uint32_t>(scene.gas.particles),
+                            scene.gas.temperature, scene.gas.spin_temperature);
+}
+
+// Particle by particle, one quantity after the other.
+std::vector<Difference> differences(const std::vector<dsmc::Particle>& a,
+                                    const std::vector<dsmc::Particle>& b) {
+    std::vector<Difference> found;
+    if (a.size() != b.size())
+        return {{"particles", "", std::numeric_limits<double>::infinity(),
+                 std::numeric_limits<double>::infinity(), 0, -1}};
+    std::vector<std::int64_t> ids(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) ids[i] = a[i].id;
+    const auto add = [&](const char* name, const char* unit, std::array<double, 3> dsmc::Particle::*values) {
+        for (std::size_t d = 0; d < 3; ++d) {
+            std::vector<double> first, second;
+            for (const dsmc::Particle& p : a) first.push_back((p.*values)[d]);
+            for (const dsmc::Particle& p : b) second.push_back((p.*values)[d]);
+            found.push_back(difference(fmt::format("{} {}", name, "xyz"[d]), unit, ids, first, second));
+        }
+    };
+    add("place", "m", &dsmc::Particle::place);
+    add("velocity", "m/s", &dsmc::Particle::velocity);
+    add("spin", "rad/s", &dsmc::Particle::spin);
+    return found;
+}
+
+} // namespace
+
+DsmcEngine::DsmcEngine(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const dsmc::Plan> plan,
+                       simd::Isa isa)
+    : scene_(std::move(scene)), plan_(std::move(plan)), isa_(isa),
+      simulation_(plan_->setup, start_of(*scene_, *plan_), isa, plan_->threads),
+      theory_(dsmc::is_homogeneous(plan_->setup)) {}
+
+const Words& DsmcEngine::words() const {
+    static const Words words{"particle", "particles", "particles", "particle-steps", "steps", "s"};
+    return words;
+}
+
+void DsmcEngine::run(std::int64_t steps) {
+    simulation_.run(steps, adaptive() ? duration() : std::numeric_limits<double>::infinity());
+}
+
+// The number of steps of an adaptive run is known at its end only.
+std::int64_t DsmcEngine::steps() const {
+    return adaptive() ? 10 * plan_->steps + 1000 : plan_->steps;
+}
+
+bool DsmcEngine::finished() const {
+    return adaptive() && time() >= duration();
+}
+
+double DsmcEngine::time_step() const {
+    return adaptive() && plan_->steps > 0 ? duration() / static_cast<double>(plan_->steps) : plan_->setup.dt;
+}
+
+void DsmcEngine::restore(const std::string& state, const std::string& origin) {
+    try {
+        simulation_.restore(state);
+    } catch (const Error& e) {
+        fail(e.code(), "{}: {}. Overrides by --set must keep gas, domain, sides, cells and time step.",
+             origin, e.what());
+    }
+}
+
+std::vector<Difference> DsmcEngine::compare_state(const Engine& other) const {
+    return differences(simulation_.particles(),
+                       dynamic_cast<const DsmcEngine&>(other).simulation().particles());
+}
+
+std::vector<Difference> DsmcEngine::compare_kernels(simd::Isa first, simd::Isa second) const {
+    dsmc::Simulation a = simulation_, b = simulation_;
+    a.use(first);
+    b.use(second);
+    a.run(1);
+    b.run(1);
+    return differences(a.particles(), b.particles());
+}
+
+std::vector<analysis::LogColumn> DsmcEngine::log_columns() const {
+    std::vector<analysis::LogColumn> columns = {
+        {"time", "s"},   {"step", "1"},        {"temperature", "J"},  {"a2", "1"},
+        {"energy", "J"}, {"wall_energy", "J"}, {"velocity_x", "m/s"}, {"velocity_y", "m/s"}};
+    if (scene_->domain.dimension == 3) columns.push_back({"velocity_z", "m/s"});
+    if (plan_->setup.rough) columns.push_back({"spin_temperature", "J"});
+    if (theory_) columns.push_back({"theory_temperature", "J"});
+    columns.push_back({"collisions_per_particle", "1"});
+    columns.push_back({"acceptance", "1"});
+    columns.push_back({"dt", "s"});
+    return columns;
+}
+
+std::vector<double> DsmcEngine::log_row() {
+    const dsmc::Observables o = simulation_.observe();
+    const dsmc::Counts& counts = simulation_.counts();
+    std::vector<double> row = {time(),   static_cast<double>(step()), o.temperature, o.fourth,
+                               o.energy, simulation_.wall_energy(),   o.drift[0],    o.drift[1]};
+    if (scene_->domain.dimension == 3) row.push_back(o.drift[2]);
+    if (plan_->setup.rough) row.push_back(o.spin_temperature);
+    if (theory_)
+        row.push_back(dsmc::cooling_curve(plan_->setup, size(), scene_->gas.temperature, {time()}).front());
+    // Two particles in each.
+    row.push_back(2 * static_cast<double>(counts.collisions) / static_cast<double>(size()));
+    row.push_back(counts.candidates > 0
+                      ? static_cast<double>(counts.collisions) / static_cast<double>(counts.candidates)
+                      : 0.0);
+    row.push_back(simulation_.dt());
+    return row;
+}
+
+std::vector<std::string> DsmcEngine::news() {
+    std::vector<std::string> news;
+    if (step() == 0) return plan_->warnings;
+    const dsmc::Counts& now = simulation_.counts();
+    const auto violations = static_cast<double>(now.violations),
+               candidates = static_cast<double>(now.candidates);
+    if (told_.violations == 0 && violations > 1e-6 * candidates && violations > 20) {
+        news.push_back(
+            fmt::format("t = {:.4g} s: {:.2g} of the candidates are faster than the majorant, more than "
+                        "1e-6; shorten the time step",
+                        time(), violations / candidates));
+        told_.violations = now.violations;
+    }
+    if (told_.stuck == 0 && now.stuck > 0) {
+        news.push_back(
+            fmt::format("t = {:.4g} s: a particle met walls more than {} times in one flight and was "
+                        "laid to rest there",
+                        time(), simd::most_hits));
+        told_.stuck = now.stuck;
+    }
+    return news;
+}
+
+std::unique_ptr<Recorder> DsmcEngine::recorder(const std::filesystem::path& folder,
+                                               const output::Checkpoint* resume) {
+    return std::make_unique<DsmcRecorder>(folder, *this, resume);
+}
+
+analysis::Snapshot DsmcEngine::snapshot() const {
+    const std::vector<dsmc::Particle> particles = simulation_.particles();
+    analysis::Snapshot s;
+    s.step = step();
+    s.time = time();
+    s.dimension = static_cast<int>(scene_->domain.dimension);
+    s.lower = scene_->domain.lower;
+    s.upper = scene_->domain.upper;
+    s.periodic_x = scene_->domain.periodic[0];
+    s.periodic_y = scene_->domain.periodic[1];
+    s.periodic_z = scene_->domain.periodic[2];
+    const bool space = s.dimension == 3;
+    for (const dsmc::Particle& p : particles) {
+        s.id.push_back(p.id);
+        s.x.push_back(p.place[0]);
+        s.y.push_back(p.place[1]);
+        s.vx.push_back(p.velocity[0]);
+        s.vy.push_back(p.velocity[1]);
+        s.omega.push_back(p.spin[2]);
+        s.image_x.push_back(p.image[0]);
+        s.image_y.push_back(p.image[1]);
+        if (!space) continue;
+        s.z.push_back(p.place[2]);
+        s.vz.push_back(p.velocity[2]);
+        s.omega_x.push_back(p.spin[0]);
+        s.omega_y.push_back(p.spin[1]);
+        s.image_z.push_back(p.image[2]);
+    }
+    s.angle.assign(particles.size(), 0);
+    s.radius.assign(particles.size(), 0.5 * scene_->gas.diameter);
+    s.mass.assign(particles.size(), scene_->gas.mass);
+    s.pressure.assign(particles.size(), 0);
+    s.material.assign(particles.size(), 0);
+    return s;
+}
+
+void DsmcEngine::draw(const std::filesystem::path& png, const Look& look) const {
+    scene::Scene turned = *scene_;
+    if (!look.view.empty()) {
+        if (turned.domain.dimension != 3)
+            fail(Exit::invalid_input, "--view goes with three-dimensional scenes only");
+        turned.output.view = {look.view[0], look.view[1], look.view[2]};
+    }
+    output::PictureStyle style = output::picture_style(turned);
+    const scene::Choices& colours = scene::colour_choices();
+    const auto colour = std::find(colours.begin(), colours.end(), look.colour);
+    if (colour != colours.end()) style.colour = static_cast<scene::Colour>(colour - colours.begin());
+    if (look.width > 0) style.width = look.width;
+    output::write_picture(png, snapshot(), style);
+}
+
+std::string DsmcEngine::plan_json() const {
+    const dsmc::Setup& s = plan_->setup;
+    return fmt::format(
+        R"({{"engine": "dsmc", "cells": [{}, {}, {}], "rough": {}, "dt": {}, "adaptive": {}}})", s.cells[0],
+        s.cells[1], s.cells[2], s.rough, json_number(s.dt), s.adaptive);
+}
+
+std::string DsmcEngine::summary_json() const {
+    const dsmc::Counts& counts = simulation_.counts();
+    return fmt::format(R"("collisions": {}, "candidates": {}, "violations": {}, )", counts.collisions,
+                       counts.candidates, counts.violations);
+}
+
+std::vector<std::pair<std::string, std::string>> DsmcEngine::report_rows() const {
+    const dsmc::Observables o = simulation_.observe();
+    return {{"Particles", std::to_string(size())},
+            {"Simulated time", fmt::format("{:.4g} s", time())},
+            {"Steps", std::to_string(step())},
+            {"Time step", fmt::format("{:.4g} s", simulation_.dt())},
+            {"Collisions per particle",
+             fmt::format("{:.4g}", 2 * static_cast<double>(simulation_.counts().collisions) /
+                                       static_cast<double>(size()))},
+            {"Temperature", fmt::format("{:.4g} J", o.temperature)},
+            {"Second Sonine coefficient", fmt::format("{:.4f}", o.fourth)}};
+}
+
+namespace {
+
+class DsmcSetup final : public Setup {
+public:
+    DsmcSetup(scene::Scene scene, const Machine& machine)
+        : scene_(std::make_shared<const scene::Scene>(std::move(scene))),
+          plan_(std::make_shared<const dsmc::Plan>(dsmc::make_plan(*scene_, machine.isa, machine.threads))) {}
+
+    [[nodiscard]] double memory_bytes() const override { return dsmc::memory_bytes(*scene_, *plan_); }
+    [[nodiscard]] std::string description() const override { return dsmc::describe(*scene_, *plan_); }
+    [[nodiscard]] std::string json() const override {
+        const dsmc::Setup& s = plan_->setup;
+        const auto n = static_cast<std::size_t>(scene_->gas.particles);
+        const dsmc::Scales scale = dsmc::scales(s, n, scene_->gas.temperature);
+        return fmt::format(
+            R"({{"particles": {}, "cells": [{}, {}, {}], "dt": {}, "steps": {}, "collision_rate": {}, )"
+            R"("mean_free_path": {}, "warnings": {}, "memory_bytes": {}, "isa": "{}", "threads": {}}})",
+            n, s.cells[0], s.cells[1], s.cells[2], json_number(s.dt), plan_->steps,
+            json_number(scale.collision_rate), json_number(scale.free_path), plan_->warnings.size(),
+            memory_bytes(), simd::isa_name(plan_->isa), plan_->threads);
+    }
+    [[nodiscard]] std::unique_ptr<Engine> start() const override { return start(plan_->isa); }
+    [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) const override {
+        return std::make_unique<DsmcEngine>(scene_, plan_, isa);
+    }
+
+private:
+    std::shared_ptr<const scene::Scene> scene_;
+    std::shared_ptr<const dsmc::Plan> plan_;
+};
+
+} // namespace
+
+std::unique_ptr<Setup> prepare_dsmc(scene::Scene scene, const Machine& machine) {
+    return std::make_unique<DsmcSetup>(std::move(scene), machine);
+}
+
+} // namespace sandlane::app

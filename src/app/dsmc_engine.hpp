@@ -1,0 +1,65 @@
+// Direct simulation Monte Carlo as an engine of the program.
+#pragma once
+
+#include "app/engine.hpp"
+#include "dsmc/plan.hpp"
+#include "dsmc/simulation.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sandlane::app {
+
+class DsmcEngine final : public Engine {
+public:
+    DsmcEngine(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const dsmc::Plan> plan,
+               simd::Isa isa);
+
+    [[nodiscard]] const dsmc::Simulation& simulation() const { return simulation_; }
+    [[nodiscard]] analysis::Snapshot snapshot() const;
+
+    [[nodiscard]] const Words& words() const override;
+    [[nodiscard]] const scene::Scene& scene() const override { return *scene_; }
+    [[nodiscard]] simd::Isa isa() const override { return isa_; }
+    [[nodiscard]] int threads() const override { return plan_->threads; }
+
+    void run(std::int64_t steps) override;
+    [[nodiscard]] std::int64_t step() const override { return simulation_.step(); }
+    [[nodiscard]] std::int64_t steps() const override;
+    [[nodiscard]] bool finished() const override;
+    [[nodiscard]] double time() const override { return simulation_.time(); }
+    [[nodiscard]] double time_step() const override;
+    [[nodiscard]] double duration() const override { return scene_->dsmc.duration; }
+    [[nodiscard]] std::size_t size() const override { return simulation_.size(); }
+
+    [[nodiscard]] Hash128 state_hash() const override { return simulation_.state_hash(); }
+    [[nodiscard]] std::string serialise() const override { return simulation_.serialise(); }
+    void restore(const std::string& state, const std::string& origin) override;
+
+    [[nodiscard]] std::vector<Difference> compare_state(const Engine& other) const override;
+    [[nodiscard]] std::vector<Difference> compare_kernels(simd::Isa first, simd::Isa second) const override;
+    [[nodiscard]] std::string kernels_compared() const override { return "One step from the initial state"; }
+
+    [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override;
+    [[nodiscard]] std::vector<double> log_row() override;
+    [[nodiscard]] std::vector<std::string> news() override;
+    [[nodiscard]] std::unique_ptr<Recorder> recorder(const std::filesystem::path& folder,
+                                                     const output::Checkpoint* resume) override;
+    void draw(const std::filesystem::path& png, const Look& look) const override;
+    [[nodiscard]] std::string plan_json() const override;
+    [[nodiscard]] std::string summary_json() const override;
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> report_rows() const override;
+
+private:
+    [[nodiscard]] bool adaptive() const { return plan_->setup.adaptive; }
+
+    std::shared_ptr<const scene::Scene> scene_;
+    std::shared_ptr<const dsmc::Plan> plan_;
+    simd::Isa isa_;
+    dsmc::Simulation simulation_;
+    dsmc::Counts told_; // what the last warnings were about
+    bool theory_;
+};
+
+} // namespace sandlane::app

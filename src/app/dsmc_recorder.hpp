@@ -1,0 +1,39 @@
+// What only a run of a gas leaves in its folder: profiles, velocity distribution, pictures, trajectories.
+#pragma once
+
+#include "app/dsmc_engine.hpp"
+#include "dsmc/samples.hpp"
+#include "output/picture_series.hpp"
+#include "output/writers.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace sandlane::app {
+
+class DsmcRecorder final : public Recorder {
+public:
+    DsmcRecorder(const std::filesystem::path& folder, const DsmcEngine& engine,
+                 const output::Checkpoint* resume);
+
+    [[nodiscard]] std::int64_t next_due(std::int64_t step) const override;
+    void write_due(bool all) override;
+    void add_bookmarks(std::map<std::string, std::string>& bookmarks) override;
+    void finish() override { write_tables(); }
+    [[nodiscard]] std::int64_t pictures() const override { return pictures_.count(); }
+
+private:
+    void write_tables() const;
+
+    const DsmcEngine& engine_;
+    std::filesystem::path folder_;
+    std::int64_t sample_steps_, picture_steps_, trajectory_steps_;
+    dsmc::Samples samples_;
+    output::PictureSeries pictures_;
+    std::map<std::string, std::unique_ptr<output::TrajectoryWriter>> trajectories_; // by name of bookmark
+};
+
+} // namespace sandlane::app

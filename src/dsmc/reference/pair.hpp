@@ -1,0 +1,76 @@
+// One pair of the reference: relative velocity and collision.
+#pragma once
+
+#include "core/rng.hpp"
+#include "laws/collision.hpp"
+#include "simd/dsmc/tables.hpp"
+
+#include <array>
+
+namespace sandlane::simd::reference {
+
+inline PhiloxCounter draw(const GasRandom& random, std::uint32_t k, std::uint32_t cell, GasStream stream) {
+    return philox({k, cell, random.step, random.last_word(stream)}, {random.key[0], random.key[1]});
+}
+
+inline Vector<double> velocity_of(const double* rows, std::int32_t i) {
+    const double* row = rows + std::ptrdiff_t{i} * gas_row;
+    return {row[0], row[1], row[2]};
+}
+inline void add_to(double* rows, std::int32_t i, const Vector<double>& v) {
+    double* row = rows + std::ptrdiff_t{i} * gas_row;
+    row[0] += v.x;
+    row[1] += v.y;
+    row[2] += v.z;
+}
+inline Vector<double> minus(const Vector<double>& v) {
+    return {-v.x, -v.y, -v.z};
+}
+
+// Number of the first of two different particles of n, and of the second.
+inline std::array<std::int32_t, 2> pair_of(const PhiloxCounter& w, std::int32_t n) {
+    const auto i = static_cast<std::int32_t>(std::uint64_t{w[0]} * static_cast<std::uint64_t>(n) >> 32);
+    auto j = static_cast<std::int32_t>(std::uint64_t{w[1]} * static_cast<std::uint64_t>(n - 1) >> 32);
+    if (j >= i) ++j;
+    return {i, j};
+}
+
+// Direction e of candidate k of a cell, of density |g.e|.
+template <int dimension>
+Vector<double> direction(const GasCollisionView& view, std::uint32_t k, std::uint32_t cell,
+                         const Vector<double>& g, double speed) {
+    const PhiloxCounter w = draw(view.random, k, cell, GasStream::geometry);
+    const double u = unit_number(w[0], w[1]);
+    if (dimension == 2) return laws::direction_in_plane(g, speed, u);
+    double sine = 0, cosine = 0;
+    laws::sine_cosine_of_turn(unit_number(w[2], w[3]), sine, cosine);
+    return laws::direction_in_space(g, speed, u, sine, cosine);
+}
+
+// Collision of rows i and j along e.
+template <bool rough>
+void collide(const GasCollisionView& view, std::int32_t i, std::int32_t j, const Vector<double>& e) {
+    const Vector<double> g = velocity_of(view.rows.velocity, i) - velocity_of(view.rows.velocity, j);
+    const double normal = dot(g, e);
+    const double eps = laws::restitution(view.restitution, -normal);
+    Vector<double> push = laws::smooth_impulse(normal, e, eps);
+    if (rough) {
+        const Vector<double> spins = velocity_of(view.rows.spin, i) + velocity_of(view.rows.spin, j);
+        const Vector<double> contact = g - cross(view.radius * spins, e);
+        double tangential = view.tangential;
+        if (view.friction > 0) {
+            const double along = dot(contact, e);
+            const Vector<double> across = contact - along * e;
+            tangential = laws::sliding_restitution(tangential, view.friction, eps, view.mass_ratio, -along,
+                                                   std::sqrt(dot(across, across)));
+        }
+        push = laws::impulse(contact, e, eps, tangential, view.mass_ratio);
+        const Vector<double> turn = (0.5 / (view.inertia * view.radius)) * cross(e, push);
+        add_to(view.rows.spin, i, minus(turn));
+        add_to(view.rows.spin, j, minus(turn));
+    }
+    add_to(view.rows.velocity, i, 0.5 * push);
+    add_to(view.rows.velocity, j, minus(0.5 * push));
+}
+
+} // namespace sandlane::simd::reference

@@ -1,0 +1,139 @@
+#include "dsmc/setup.hpp"
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "laws/collision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sandlane::dsmc {
+
+double Setup::volume() const {
+    const double area = (upper[0] - lower[0]) * (upper[1] - lower[1]);
+    return dimension == 3 ? area * (upper[2] - lower[2]) : area;
+}
+double Setup::cell_volume() const {
+    const double count = static_cast<double>(cells[0]) * cells[1] * (dimension == 3 ? cells[2] : 1);
+    return volume() / count;
+}
+double Setup::cross_section() const {
+    return dimension == 3 ? std::numbers::pi * diameter * diameter : 2 * diameter;
+}
+double Setup::particle_volume() const {
+    const double square = std::numbers::pi * diameter * diameter;
+    return dimension == 3 ? square * diameter / 6 : square / 4;
+}
+
+std::vector<Particle> maxwellian(const Setup& setup, std::uint32_t count, double temperature,
+                                 double spin_temperature) {
+    std::vector<Particle> particles(count);
+    const PhiloxKey key{static_cast<std::uint32_t>(setup.seed), static_cast<std::uint32_t>(setup.seed >> 32)};
+    const auto draw = [&](std::uint32_t block, std::uint32_t id) {
+        const PhiloxCounter w =
+            philox({block, id, 0, static_cast<std::uint32_t>(simd::GasStream::start)}, key);
+        return std::array<double, 2>{unit_number(w[0], w[1]), unit_number(w[2], w[3])};
+    };
+    const auto d = static_cast<std::size_t>(setup.dimension);
+    const auto normals = [&](std::uint32_t block, std::uint32_t id) {
+        const auto [u, w] = draw(block, id);
+        const auto [u2, w2] = draw(block + 1, id);
+        const auto a = laws::normal_pair(u, w), b = laws::normal_pair(u2, w2);
+        return std::array<double, 3>{a[0], a[1], setup.dimension == 3 ? b[0] : 0.0};
+    };
+    std::array<double, 3> mean{};
+    for (std::uint32_t id = 0; id < count; ++id) {
+        Particle& p = particles[id];
+        p.id = id;
+        p.velocity = normals(0, id);
+        const auto xy = draw(2, id), z = draw(3, id);
+        const double unit[3] = {xy[0], xy[1], z[0]};
+        for (std::size_t c = 0; c < d; ++c) {
+            double from = setup.lower[c], to = setup.upper[c];
+            if (!setup.walls.periodic[c]) { // clear of walls that oscillate
+                from += setup.walls.side[c][0].motion.amplitude;
+                to -= setup.walls.side[c][1].motion.amplitude;
+            }
+            p.place[c] = from + unit[c] * (to - from);
+            mean[c] += p.velocity[c];
+        }
+        if (spin_temperature > 0) {
+            const double radius = 0.5 * setup.diameter;
+            const double speed = std::sqrt(spin_temperature / (setup.inertia * setup.mass * radius * radius));
+            const auto w = normals(4, id);
+            for (std::size_t c = 0; c < 3; ++c) p.spin[c] = speed * w[c];
+            if (setup.dimension == 2) p.spin = {0, 0, speed * w[0]};
+        }
+    }
+    double square = 0;
+    for (Particle& p : particles)
+        for (std::size_t c = 0; c < d; ++c) {
+            p.velocity[c] -= mean[c] / count;
+            square += p.velocity[c] * p.velocity[c];
+        }
+    const double wanted = static_cast<double>(count) * static_cast<double>(d) * temperature / setup.mass;
+    const double scale = square > 0 ? std::sqrt(wanted / square) : std::sqrt(temperature / setup.mass);
+    for (Particle& p : particles)
+        for (std::size_t c = 0; c < d; ++c) p.velocity[c] *= scale;
+    return particles;
+}
+
+Scales scales(const Setup& setup, std::size_t particles, double temperature) {
+    Scales s;
+    s.density = static_cast<double>(particles) * setup.weight / setup.volume();
+    s.packing = s.density * setup.particle_volume();
+    if (setup.enskog && s.packing < 1) s.correlation = laws::contact_correlation(setup.dimension, s.packing);
+    const double t = temperature / setup.mass, pi = std::numbers::pi;
+    s.speed = std::sqrt((setup.dimension == 3 ? 8 / pi : pi / 2) * t);
+    const double relative = setup.dimension == 3 ? 4 * std::sqrt(t / pi) : std::sqrt(pi * t);
+    s.collision_rate = s.density * s.correlation * setup.cross_section() * relative;
+    s.free_path = s.collision_rate > 0 ? s.speed / s.collision_rate : std::numeric_limits<double>::infinity();
+    const double eps = laws::restitution(setup.restitution, 2 * std::sqrt(t));
+    s.cooling = s.collision_rate * (1 - eps * eps) / setup.dimension;
+    return s;
+}
+
+std::vector<std::string> warnings(const Setup& setup, std::size_t particles, double temperature,
+                                  double drift) {
+    std::vector<std::string> found;
+    const Scales s = scales(setup, particles, temperature);
+    double longest = 0, shortest = 0, count = 1;
+    for (int d = 0; d < setup.dimension; ++d) {
+        count *= setup.cells[d];
+        if (setup.cells[d] == 1) continue; // the same everywhere along it
+        longest = std::max(longest, setup.edge(d));
+        shortest = shortest > 0 ? std::min(shortest, setup.edge(d)) : setup.edge(d);
+    }
+    if (longest > 0 && 3 * longest > s.free_path)
+        found.push_back(
+            fmt::format("cells of {:.3g} m are longer than a third of the mean free path, {:.3g} m: "
+                        "transport coefficients come out too large",
+                        longest, s.free_path));
+    if (s.collision_rate * setup.dt > 0.2)
+        found.push_back(fmt::format("{:.3g} collisions per particle and step, above 0.2: use dt <= {:.3g} s",
+                                    s.collision_rate * setup.dt, 0.2 / s.collision_rate));
+    const double reach = (drift + 2 * std::sqrt(2 * temperature / setup.mass)) * setup.dt;
+    if (shortest > 0 && 2 * reach > shortest)
+        found.push_back(
+            fmt::format("fast particles cross {:.2g} cells in a step, more than half of one: use dt "
+                        "<= {:.3g} s",
+                        reach / shortest, 0.5 * shortest * setup.dt / reach));
+    const double per_cell = static_cast<double>(particles) / count;
+    if (per_cell < 5)
+        found.push_back(
+            fmt::format("{:.3g} particles per cell, fewer than 5: fluctuations bias the result", per_cell));
+    if (setup.adaptive && s.cooling * setup.dt > 0.02)
+        found.push_back(
+            fmt::format("the gas loses {:.2g} of its temperature in a step, more than 0.02: use dt <= "
+                        "{:.3g} s",
+                        s.cooling * setup.dt, 0.02 / s.cooling));
+    if (!setup.enskog && s.packing > 0.01)
+        found.push_back(fmt::format(
+            "packing fraction {:.3g}: without the Enskog factor collisions are too rare by "
+            "a factor {:.3g}",
+            s.packing, s.packing < 0.7 ? laws::contact_correlation(setup.dimension, s.packing) : 99));
+    return found;
+}
+
+} // namespace sandlane::dsmc

@@ -1,0 +1,67 @@
+// What a simulation of a gas is made of: box, cells, particles, collisions, time step.
+#pragma once
+
+#include "dsmc/walls.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sandlane::dsmc {
+
+struct Setup {
+    int dimension = 3;                                 // of the velocities; cells may be one in a direction
+    double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1}; // m; in the plane the third direction is one metre
+    std::int32_t cells[3] = {1, 1, 1};
+    simd::GasWalls walls; // sides; box, radius and inertia are filled in
+    double gravity[3] = {0, 0, 0};
+    double mass = 1, diameter = 1; // kg, m
+    double weight = 1;             // real particles that one stands for
+    bool rough = false;
+    double tangential = 1, friction = 0; // rough: eps_t, mu
+    double inertia = 0.4;                // rough: J = inertia m R^2
+    laws::Restitution restitution;
+    simd::GasScheme scheme = simd::GasScheme::no_time_counter;
+    bool enskog = false;
+    double dt = 0;         // s
+    bool adaptive = false; // dt grows as 1/sqrt(T)
+    double kicks = 0;      // white noise xi^2 of each velocity component, m^2/s^3
+    double margin = 1.1;   // of the majorant
+    std::uint64_t seed = 1;
+
+    [[nodiscard]] double volume() const; // m^3, m^2 in the plane
+    [[nodiscard]] double cell_volume() const;
+    [[nodiscard]] double cross_section() const; // pi s^2, 2 s
+    [[nodiscard]] double particle_volume() const;
+    [[nodiscard]] double edge(int d) const { return (upper[d] - lower[d]) / cells[d]; }
+};
+
+struct Particle {
+    std::uint32_t id = 0;
+    std::array<double, 3> place{}, velocity{}, spin{};
+    std::array<std::int32_t, 3> image{};
+};
+
+// Uniform places and a Maxwellian of temperature T [J] without mean velocity, scaled to T exactly; spins of
+// temperature T_spin. Stream 5 of the specification.
+[[nodiscard]] std::vector<Particle> maxwellian(const Setup& setup, std::uint32_t count, double temperature,
+                                               double spin_temperature = 0);
+
+// Numbers of the gas at density n F and temperature T [J], dilute or after Enskog.
+struct Scales {
+    double density = 0;        // real particles per volume
+    double packing = 0;        // their volume fraction
+    double correlation = 1;    // g2
+    double speed = 0;          // mean thermal speed, m/s
+    double collision_rate = 0; // per particle, 1/s
+    double free_path = 0;      // m
+    double cooling = 0;        // zeta, 1/s, of the restitution at the mean square normal speed
+};
+[[nodiscard]] Scales scales(const Setup& setup, std::size_t particles, double temperature);
+
+// Criteria of the method that the setup does not meet (specification 4.3), one sentence each.
+[[nodiscard]] std::vector<std::string> warnings(const Setup& setup, std::size_t particles, double temperature,
+                                                double drift = 0);
+
+} // namespace sandlane::dsmc

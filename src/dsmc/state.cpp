@@ -1,0 +1,139 @@
+// Reading a simulation: particles by id, sums, hash, checkpoints.
+#include "dsmc/simulation.hpp"
+
+#include "core/bytes.hpp"
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace sandlane::dsmc {
+
+using simd::gas_row;
+
+template <class Body> void Simulation::for_rows(const Body& body) const {
+    for (const Tile& tile : tiles_) {
+        const simd::GasRows rows = const_cast<Tile&>(tile).rows.view();
+        for (std::ptrdiff_t i = 0; i < tile.count; ++i)
+            body(rows.place + i * gas_row, rows.velocity + i * gas_row,
+                 rows.spin == nullptr ? nullptr : rows.spin + i * gas_row);
+    }
+}
+
+std::vector<Particle> Simulation::particles() const {
+    std::vector<Particle> all;
+    all.reserve(size_);
+    for_rows([&](const double* place, const double* velocity, const double* spin) {
+        Particle p;
+        std::uint64_t word = 0, images = 0;
+        std::memcpy(&word, place + 3, sizeof word);
+        std::memcpy(&images, velocity + 3, sizeof images);
+        p.id = static_cast<std::uint32_t>(word);
+        for (std::size_t d = 0; d < 3; ++d) {
+            p.place[d] = place[d];
+            p.velocity[d] = velocity[d];
+            if (spin != nullptr) p.spin[d] = spin[d];
+            const std::uint64_t count = images >> 20 * d & 0xfffff; // 20 bits with a sign
+            p.image[d] = static_cast<std::int32_t>(count) - (count >= 0x80000 ? 0x100000 : 0);
+        }
+        all.push_back(p);
+    });
+    std::sort(all.begin(), all.end(), [](const Particle& a, const Particle& b) { return a.id < b.id; });
+    return all;
+}
+
+Observables Simulation::observe() const {
+    Observables o;
+    const std::vector<Particle> all = particles();
+    if (all.empty()) return o;
+    const auto n = static_cast<double>(all.size());
+    const auto d = static_cast<std::size_t>(setup_.dimension);
+    for (const Particle& p : all)
+        for (std::size_t c = 0; c < d; ++c) o.drift[c] += p.velocity[c] / n;
+    double fourth = 0, spins = 0, squares = 0;
+    for (const Particle& p : all) {
+        double square = 0;
+        for (std::size_t c = 0; c < d; ++c) {
+            const double v = p.velocity[c] - o.drift[c];
+            o.directions[c] += setup_.mass * v * v / n;
+            square += v * v;
+            squares += p.velocity[c] * p.velocity[c];
+        }
+        fourth += square * square / n;
+        for (const double w : p.spin) spins += w * w;
+    }
+    const auto dimension = static_cast<double>(setup_.dimension);
+    for (std::size_t c = 0; c < d; ++c) o.temperature += o.directions[c] / dimension;
+    const double variance = o.temperature / setup_.mass;
+    o.fourth = variance > 0 ? fourth / (dimension * (dimension + 2) * variance * variance) - 1 : 0;
+    const double inertia = setup_.inertia * setup_.mass * 0.25 * setup_.diameter * setup_.diameter;
+    if (setup_.rough) o.spin_temperature = inertia * spins / n / (setup_.dimension == 3 ? 3 : 1);
+    o.energy = 0.5 * setup_.weight * (setup_.mass * squares + (setup_.rough ? inertia * spins : 0));
+    return o;
+}
+
+Hash128 Simulation::state_hash() const {
+    ByteWriter out;
+    for (const Particle& p : particles()) {
+        out.put(p.id);
+        for (std::size_t d = 0; d < 3; ++d) {
+            out.put(p.place[d]);
+            out.put(p.velocity[d]);
+            out.put(p.spin[d]);
+            out.put(p.image[d]);
+        }
+    }
+    return hash_bytes(out.bytes().data(), out.bytes().size());
+}
+
+std::string Simulation::serialise() const {
+    ByteWriter out;
+    out.put(step_);
+    for (const double value : {time_, dt_, next_dt_, square_sum_, first_square_sum_, wall_energy_})
+        out.put(value);
+    for (const std::int64_t value :
+         {counts_.candidates, counts_.collisions, counts_.violations, counts_.stuck})
+        out.put(value);
+    out.put(static_cast<std::uint64_t>(tiles_.size()));
+    for (const Tile& tile : tiles_) {
+        const auto rows = static_cast<std::size_t>(tile.count) * gas_row;
+        out.put_array(tile.rows.place.data(), rows);
+        out.put_array(tile.rows.velocity.data(), rows);
+        if (setup_.rough) out.put_array(tile.rows.spin.data(), rows);
+    }
+    return out.bytes();
+}
+
+void Simulation::restore(const std::string& bytes) {
+    ByteReader in(bytes);
+    step_ = in.get<std::int64_t>();
+    for (double* value : {&time_, &dt_, &next_dt_, &square_sum_, &first_square_sum_, &wall_energy_})
+        *value = in.get<double>();
+    for (std::int64_t* value :
+         {&counts_.candidates, &counts_.collisions, &counts_.violations, &counts_.stuck})
+        *value = in.get<std::int64_t>();
+    const auto belongs = [&](bool condition) {
+        if (!condition) fail(Exit::io, "the state belongs to another scene");
+    };
+    belongs(in.get<std::uint64_t>() == tiles_.size());
+    std::size_t total = 0;
+    for (Tile& tile : tiles_) {
+        std::vector<double> place, velocity, spin;
+        in.get_array(place);
+        in.get_array(velocity);
+        if (setup_.rough) in.get_array(spin);
+        belongs(place.size() % gas_row == 0 && velocity.size() == place.size() &&
+                (!setup_.rough || spin.size() == place.size()));
+        const std::size_t count = place.size() / gas_row;
+        tile.rows.require(count, setup_.rough, false);
+        std::copy(place.begin(), place.end(), tile.rows.place.begin());
+        std::copy(velocity.begin(), velocity.end(), tile.rows.velocity.begin());
+        if (setup_.rough) std::copy(spin.begin(), spin.end(), tile.rows.spin.begin());
+        tile.count = static_cast<std::int32_t>(count);
+        total += count;
+    }
+    belongs(total == size_ && in.at_end());
+}
+
+} // namespace sandlane::dsmc

@@ -1,0 +1,69 @@
+// The tables of a scene that describe a gas of equal hard particles, and how direct simulation Monte Carlo
+// runs it.
+#pragma once
+
+#include "core/vec.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace sandlane::scene {
+
+enum class RestitutionModel { constant, viscoelastic, saturating };
+enum class GasBody { sphere, disc, hollow_sphere, ring }; // J = q m R^2, q = 2/5, 1/2, 2/3, 1
+enum class GasAxis { x, y, z };
+
+struct Gas {
+    std::int64_t particles = 0;
+    double temperature = 0;        // J: m <v^2> per component at the start
+    double mass = 1, diameter = 1; // kg, m
+    double weight = 1;             // real particles that one stands for
+    RestitutionModel model = RestitutionModel::constant;
+    double restitution = 1;            // constant; saturating: of fast impacts
+    double dissipation = 0;            // viscoelastic: A rho^{2/5}, (s/m)^{1/5}
+    double critical_speed = 1;         // saturating: restitution is reached here, m/s
+    double exponent = 0.2;             // saturating
+    double tangential_restitution = 1; // 1: smooth
+    double friction = 0;               // bounds it; 0: does not
+    GasBody body = GasBody::sphere;    // rough particles
+    double spin_temperature = 0;       // J: of the spins at the start
+};
+
+enum class SideKind { reflecting, heated };
+enum class SideName { lower_x, upper_x, lower_y, upper_y, lower_z, upper_z };
+
+// A side of the domain that is not periodic. Those that no [[sides]] names reflect elastically.
+struct GasSide {
+    SideName side = SideName::lower_x;
+    SideKind kind = SideKind::reflecting;
+    double restitution = 1, tangential_restitution = 1;
+    double temperature = 0;   // J, heated
+    double accommodation = 1; // heated
+    Vec velocity;             // along the wall, m/s
+    double amplitude = 0;     // m: oscillates along its normal
+    double frequency = 0;     // 1/s
+    double phase = 0;         // rad
+};
+
+enum class CollisionScheme {
+    no_time_counter,
+    direction_first,
+    nanbu_babovsky,
+    majorant_frequency,
+    bernoulli
+};
+
+struct Dsmc {
+    std::array<std::int64_t, 3> cells{}; // 0: chosen
+    CollisionScheme scheme = CollisionScheme::no_time_counter;
+    bool enskog = false;
+    double dt = 0; // s; 0: chosen
+    bool adaptive = false;
+    double duration = 0;
+    double heating = 0;                        // m^2/s^3: white noise xi^2 of each velocity component
+    double sample_every = 0, sample_start = 0; // s
+    GasAxis profile_axis = GasAxis::x;
+    std::int64_t profile_bins = 0; // 0: the cells along it
+};
+
+} // namespace sandlane::scene

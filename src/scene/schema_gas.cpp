@@ -1,0 +1,113 @@
+// The keys of gases: particles, sides, and the Monte Carlo method.
+#include "scene/fields.hpp"
+
+namespace sandlane::scene {
+
+namespace {
+
+void read_cells(Dsmc& d, const Value& v, const std::string& path, std::int64_t dimension) {
+    if (v.kind != Value::Kind::array || v.items.size() != static_cast<std::size_t>(dimension))
+        fail_at(v, path, dimension == 3 ? "must be [columns, rows, layers]" : "must be [columns, rows]");
+    for (std::size_t n = 0; n < v.items.size(); ++n)
+        d.cells[n] = read_integer(v.items[n], path, between(0, 1e6));
+}
+
+std::string write_cells(const Dsmc& d, std::int64_t dimension) {
+    std::vector<std::string> counts;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(dimension); ++n)
+        counts.push_back(fmt::format("{}", d.cells[n]));
+    return joined(counts);
+}
+
+} // namespace
+
+const Table<Gas>& gas_table() {
+    static const Table<Gas> table =
+        Table<Gas>("A gas of equal hard discs or spheres, uniform in the domain and Maxwellian at the start. "
+                   "Temperatures are energies, m <v^2> of a component without the mean.")
+            .integer("particles", &Gas::particles, between(1, 2e9), "number of simulated particles")
+            .required()
+            .number("temperature", &Gas::temperature, Unit::energy, positive(), "at the start, exactly")
+            .required()
+            .number("mass", &Gas::mass, Unit::mass, positive(), "of a particle")
+            .number("diameter", &Gas::diameter, Unit::length, positive(), "of a particle")
+            .number("weight", &Gas::weight, Unit::none, positive(),
+                    "real particles that a simulated one stands for")
+            .choice("model", &Gas::model, {"constant", "viscoelastic", "saturating"},
+                    "normal restitution eps: constant; viscoelastic spheres, eps(dissipation g^{1/5}) of the "
+                    "impact speed g; 1 - (1 - restitution) min(1, g/critical_speed)^exponent")
+            .number("restitution", &Gas::restitution, Unit::none, between(0, 1),
+                    "eps, or that of fast impacts")
+            .number(
+                "dissipation", &Gas::dissipation, Unit::none, not_negative(),
+                "viscoelastic: A rho^{2/5} in (s/m)^{1/5}, with rho = 2 Y sqrt(R_eff)/(3 (1 - nu^2) m_eff)")
+            .number("critical_speed", &Gas::critical_speed, Unit::speed, positive(), "saturating")
+            .number("exponent", &Gas::exponent, Unit::none, between(0.01, 10), "saturating")
+            .number("tangential_restitution", &Gas::tangential_restitution, Unit::none, between(-1, 1),
+                    "1: smooth particles, which do not spin; 0: tangential motion stops; -1: perfectly rough")
+            .number("friction", &Gas::friction, Unit::none, not_negative(),
+                    "Coulomb's bound of the tangential impulse, which raises the tangential restitution of "
+                    "grazing collisions; 0: no bound")
+            .choice("body", &Gas::body, {"sphere", "disc", "hollow-sphere", "ring"},
+                    "rough particles: moment of inertia 2/5, 1/2, 2/3 or 1 m R^2")
+            .number("spin_temperature", &Gas::spin_temperature, Unit::energy, not_negative(),
+                    "rough particles: J <w^2> of a component at the start");
+    return table;
+}
+
+const Table<GasSide>& side_table() {
+    static const Table<GasSide> table =
+        Table<GasSide>(
+            "Sides of the domain that are not periodic. Those that are not listed reflect elastically.")
+            .choice("side", &GasSide::side, {"-x", "+x", "-y", "+y", "-z", "+z"},
+                    "lower and upper side of each axis")
+            .required()
+            .choice("kind", &GasSide::kind, {"reflecting", "heated"},
+                    "a heated wall sends particles back with the flux of a gas at its temperature")
+            .number("restitution", &GasSide::restitution, Unit::none, between(0, 1), "reflecting: normal")
+            .number("tangential_restitution", &GasSide::tangential_restitution, Unit::none, between(-1, 1),
+                    "reflecting, rough particles: tangential")
+            .number("temperature", &GasSide::temperature, Unit::energy, not_negative(), "heated: above 0")
+            .number("accommodation", &GasSide::accommodation, Unit::none, between(0, 1),
+                    "heated: fraction that takes its temperature; the others are reflected elastically")
+            .vector("velocity", &GasSide::velocity, Unit::speed, "of the wall along itself")
+            .number("amplitude", &GasSide::amplitude, Unit::length, not_negative(),
+                    "oscillates along its normal, towards the gas first")
+            .number("frequency", &GasSide::frequency, Unit::rate, not_negative(), "of the oscillation")
+            .number("phase", &GasSide::phase, Unit::angle, any, "of the oscillation");
+    return table;
+}
+
+const Table<Dsmc>& dsmc_table() {
+    static const Table<Dsmc> table =
+        Table<Dsmc>("Direct simulation Monte Carlo. Pictures and trajectories are written only where their "
+                    "intervals are given.")
+            .custom(
+                {"cells", "[columns, rows]", "", "0 or more",
+                 "cells; 0: as many as are at most a third of the mean free path long, but not fewer than 10 "
+                 "particles each; 1 in directions in which the gas is uniform",
+                 false, read_cells, write_cells, "[columns, rows, layers]"})
+            .choice(
+                "scheme", &Dsmc::scheme,
+                {"no-time-counter", "direction-first", "nanbu-babovsky", "majorant-frequency", "bernoulli"},
+                "how pairs are chosen; all but the first are oracles without vector kernels")
+            .flag("enskog", &Dsmc::enskog,
+                  "more collisions by the pair correlation at contact of the cell's density")
+            .number("dt", &Dsmc::dt, Unit::time, not_negative(),
+                    "time step; 0: 0.1 collisions per particle, and fast particles cross half a cell at most")
+            .flag("adaptive", &Dsmc::adaptive, "the time step grows as 1/sqrt(T)")
+            .number("duration", &Dsmc::duration, Unit::time, not_negative(), "simulated time; 0: no steps")
+            .number("heating", &Dsmc::heating, Unit::heating, not_negative(),
+                    "white noise xi^2: random kicks of variance xi^2 dt to each velocity component")
+            .number("sample_every", &Dsmc::sample_every, Unit::time, any,
+                    "frames of profile.csv and distribution.csv, averages over time; 0: duration/200, "
+                    "negative: none")
+            .number("sample_start", &Dsmc::sample_start, Unit::time, not_negative(),
+                    "frames before it are left out")
+            .choice("profile_axis", &Dsmc::profile_axis, {"x", "y", "z"},
+                    "axis across the bins of profile.csv")
+            .integer("profile_bins", &Dsmc::profile_bins, between(0, 100000), "0: the cells along it");
+    return table;
+}
+
+} // namespace sandlane::scene

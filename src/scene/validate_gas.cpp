@@ -1,0 +1,118 @@
+// What one key of a gas cannot know alone.
+#include "core/error.hpp"
+#include "scene/schema.hpp"
+#include "scene/space.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace sandlane::scene {
+
+namespace {
+
+constexpr const char* side_names[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
+
+struct GasValidator {
+    const Scene& scene;
+    const std::string& file;
+
+    template <class... Args>
+    [[noreturn]] void reject(fmt::format_string<Args...> format, Args&&... args) const {
+        fail(Exit::invalid_input, "{}: {}", file, fmt::format(format, std::forward<Args>(args)...));
+    }
+
+    void check_domain() const {
+        const Domain& d = scene.domain;
+        for (const AxisOfSpace& axis : axes(d.dimension)) {
+            const double length = d.upper.*axis.component - d.lower.*axis.component;
+            if (!(length > 0) || !std::isfinite(length))
+                reject("domain: upper must lie above lower in all directions, at a finite distance; in {} it "
+                       "is {} m",
+                       axis.name, length);
+        }
+        if (d.shear_rate != 0)
+            reject("domain.shear_rate = {}: is not known to this method; use 0", d.shear_rate);
+    }
+
+    void check_gas() const {
+        const Gas& gas = scene.gas;
+        if (gas.particles == 0) reject("gas: is missing; write [gas] with particles and temperature");
+        const double volume = content(scene.domain.upper - scene.domain.lower, scene.domain.dimension);
+        const double packing = static_cast<double>(gas.particles) * gas.weight *
+                               grain_content(0.5 * gas.diameter, scene.domain.dimension) / volume;
+        // Beyond freezing there is no fluid that the contact values were made for.
+        const double most = scene.domain.dimension == 3 ? 0.49 : 0.69;
+        if (packing > most)
+            reject(
+                "gas: the packing fraction is {:.4g}; allowed: up to {}, where the fluid freezes. Take fewer "
+                "particles, a smaller weight or diameter, or a larger domain",
+                packing, most);
+        if (gas.model == RestitutionModel::viscoelastic && scene.gas.dissipation == 0)
+            reject("gas.dissipation: is missing; model = \"viscoelastic\" needs it, above 0");
+        if (gas.tangential_restitution == 1 && gas.friction > 0)
+            reject("gas.friction = {}: smooth particles have none; give tangential_restitution below 1",
+                   gas.friction);
+        if (gas.tangential_restitution == 1 && gas.spin_temperature > 0)
+            reject("gas.spin_temperature = {}: smooth particles do not spin; give tangential_restitution "
+                   "below 1",
+                   gas.spin_temperature);
+        if (scene.domain.dimension == 3 && (gas.body == GasBody::disc || gas.body == GasBody::ring))
+            reject(
+                "gas.body: discs and rings are for scenes in the plane; use \"sphere\" or \"hollow-sphere\"");
+    }
+
+    void check_side(std::size_t n) const {
+        const GasSide& side = scene.sides[n];
+        const auto axis = static_cast<std::size_t>(side.side) / 2;
+        const char* name = side_names[static_cast<std::size_t>(side.side)];
+        if (axis >= static_cast<std::size_t>(scene.domain.dimension))
+            reject("sides[{}].side = \"{}\": a plane has no such side", n, name);
+        if (scene.domain.periodic[axis])
+            reject("sides[{}].side = \"{}\": this direction is periodic; take it out of domain.periodic", n,
+                   name);
+        for (std::size_t other = 0; other < n; ++other)
+            if (scene.sides[other].side == side.side)
+                reject("sides[{}].side = \"{}\": sides[{}] is the same side", n, name, other);
+        if (side.kind == SideKind::heated && !(side.temperature > 0))
+            reject("sides[{}].temperature = {}: a heated wall needs a temperature above 0 J", n,
+                   side.temperature);
+        if (side.kind == SideKind::reflecting && side.temperature > 0)
+            reject("sides[{}].temperature = {}: a reflecting wall has none; write kind = \"heated\"", n,
+                   side.temperature);
+        const AxisOfSpace& direction = space_axes[axis];
+        if (side.velocity.*direction.component != 0)
+            reject("sides[{}].velocity: its {} component must be 0; a wall moves along itself", n,
+                   direction.name);
+        if ((side.amplitude > 0) != (side.frequency > 0))
+            reject("sides[{}]: an oscillation needs both amplitude and frequency above 0", n);
+        const double length =
+            scene.domain.upper.*direction.component - scene.domain.lower.*direction.component;
+        if (side.amplitude > 0.25 * length)
+            reject("sides[{}].amplitude = {} m: allowed: up to a quarter of the domain, {} m", n,
+                   side.amplitude, 0.25 * length);
+    }
+
+    void check_dsmc() const {
+        const Dsmc& d = scene.dsmc;
+        double cells = 1;
+        for (const AxisOfSpace& axis : axes(scene.domain.dimension))
+            cells *= static_cast<double>(std::max<std::int64_t>(1, d.cells[axis.index]));
+        if (cells > 1e9) reject("dsmc.cells: {:.4g} cells; allowed: up to 1e9", cells);
+        if (static_cast<std::int64_t>(d.profile_axis) >= scene.domain.dimension)
+            reject("dsmc.profile_axis: a plane has no z axis");
+        if (d.adaptive && d.heating > 0)
+            reject("dsmc.adaptive: a heated gas does not cool down; leave out adaptive or heating");
+    }
+};
+
+} // namespace
+
+void validate_dsmc(const Scene& scene, const std::string& file) {
+    const GasValidator v{scene, file};
+    v.check_domain();
+    v.check_gas();
+    for (std::size_t n = 0; n < scene.sides.size(); ++n) v.check_side(n);
+    v.check_dsmc();
+}
+
+} // namespace sandlane::scene

@@ -1,0 +1,99 @@
+// The same bits for every instruction set, number of threads and division of a run, and after a checkpoint.
+#include "dsmc/support.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace sandlane;
+
+namespace {
+
+struct Case {
+    std::string name;
+    dsmc::Setup setup;
+    std::uint32_t particles;
+};
+
+std::vector<Case> cases() {
+    std::vector<Case> all;
+    const auto add = [&](const std::string& name, const dsmc::Setup& s, std::uint32_t n) {
+        all.push_back({name, s, n});
+    };
+    add("space", test::gas(3, 0.9, 6000, 12), 6000);
+    add("plane", test::gas(2, 0.8, 5000, 30), 5000);
+    dsmc::Setup s = test::gas(3, 1, 6000, 11);
+    s.restitution.model = laws::Restitution::Model::viscoelastic;
+    s.restitution.dissipation = 0.05;
+    s.enskog = true;
+    s.adaptive = true;
+    add("viscoelastic", s, 6000);
+    s.restitution = {laws::Restitution::Model::saturating, 0.6, 0, 1.5, 0.2};
+    s.rough = true;
+    s.tangential = -0.4;
+    s.friction = 0.3;
+    add("rough", s, 6000);
+    s = test::gas(2, 0.9, 4000, 20);
+    s.rough = true;
+    s.inertia = 0.5;
+    s.tangential = 0.3;
+    s.kicks = 0.05;
+    add("rough_plane", s, 4000);
+    s = test::gas(3, 0.9, 6000, 12);
+    s.gravity[2] = -0.3;
+    s.gravity[0] = 0.05;
+    s.walls.periodic[2] = false;
+    s.walls.side[2][0].motion = {0.3, 0.4, 0.1};
+    s.walls.side[2][1].eps_n = 0.8;
+    s.walls.periodic[1] = false;
+    s.walls.side[1][0].kind = s.walls.side[1][1].kind = simd::GasSide::Kind::heated;
+    s.walls.side[1][0].thermal_speed = 1.5;
+    s.walls.side[1][1].thermal_speed = 0.7;
+    s.walls.side[1][1].accommodation = 0.8;
+    s.kicks = 0.02;
+    s.dt = 0.3;
+    add("walls", s, 6000);
+    s = test::gas(3, 0.9, 900, 30); // hardly any particles
+    s.cells[1] = 1;
+    s.dt = 20; // far beyond a tile
+    add("thin", s, 900);
+    return all;
+}
+
+} // namespace
+
+TEST(Bits, EveryInstructionSetAndThreadCount) {
+    for (const Case& c : cases()) {
+        const auto start = dsmc::maxwellian(c.setup, c.particles, 1, c.setup.rough ? 0.5 : 0);
+        dsmc::Simulation reference(c.setup, start, simd::Isa::scalar, 1);
+        reference.run(6);
+        EXPECT_GT(reference.counts().collisions, 0) << c.name;
+        for (const simd::Isa isa : simd::available_isas())
+            for (const int threads : {1, 7}) {
+                dsmc::Simulation other(c.setup, start, isa, threads);
+                other.run(6);
+                EXPECT_EQ(other.state_hash(), reference.state_hash())
+                    << c.name << " " << simd::isa_name(isa) << " " << threads;
+                EXPECT_EQ(other.counts().candidates, reference.counts().candidates) << c.name;
+                EXPECT_EQ(other.counts().violations, reference.counts().violations) << c.name;
+                EXPECT_EQ(other.wall_energy(), reference.wall_energy()) << c.name;
+            }
+    }
+}
+
+TEST(Bits, OneRunOrSeveralOrAfterACheckpoint) {
+    for (const Case& c : cases()) {
+        const auto start = dsmc::maxwellian(c.setup, c.particles, 1);
+        dsmc::Simulation straight(c.setup, start, simd::available_isas().back(), 2);
+        straight.run(9);
+        dsmc::Simulation parts(c.setup, start, simd::available_isas().back(), 1);
+        parts.run(1);
+        parts.run(4);
+        dsmc::Simulation later(c.setup, start, simd::available_isas().front(), 2);
+        later.restore(parts.serialise());
+        EXPECT_EQ(later.state_hash(), parts.state_hash()) << c.name;
+        later.run(4);
+        EXPECT_EQ(later.state_hash(), straight.state_hash()) << c.name;
+        EXPECT_EQ(later.time(), straight.time()) << c.name;
+        EXPECT_EQ(later.wall_energy(), straight.wall_energy()) << c.name;
+        EXPECT_EQ(later.counts().collisions, straight.counts().collisions) << c.name;
+    }
+}
