@@ -1,5 +1,5 @@
-// `neighbours = "auto"`: lists of pairs for any number of grains, none and one among them, and for a scene that
-// fills and empties.
+// `neighbours = "auto"`: lists of pairs for any number of grains, none and one among them, and for a scene
+// that fills and empties.
 #include "md/support.hpp"
 #include "support/lattice_system.hpp"
 
