@@ -86,6 +86,7 @@ Potential stretched(const Potential& coarse, std::int32_t columns, std::int32_t 
     if (coarse.w.empty()) return fine;
     const double stretch = (columns + 1.0) / (coarse.columns + 1.0) * ((rows + 1.0) / (coarse.rows + 1.0));
     std::vector<Place> across;
+    across.reserve(static_cast<std::size_t>(columns));
     for (std::int32_t x = 0; x < columns; ++x) across.push_back(place_in(x, columns, coarse.columns));
     for_tiles(static_cast<std::size_t>(rows), threads, [&](std::size_t row) {
         const Place up = place_in(static_cast<std::int32_t>(row), rows, coarse.rows);

@@ -22,6 +22,7 @@ void for_near_pairs(const scene::Box& box, const State& state, const Position& p
         std::vector<std::size_t> grains;
     };
     std::vector<Level> levels;
+    levels.reserve(classes.size());
     for (const SizeClass& c : classes) levels.push_back({scene::CellGrid(box, 2 * c.largest, c.grains), {}});
     for (std::size_t own = classes.size(); own-- > 0;)
         for (std::size_t i = 0; i < state.size(); ++i) {

@@ -30,7 +30,7 @@ std::string write_periodic(const Domain& d, std::int64_t dimension) {
 // "md: force-based molecular dynamics; ..."
 std::string engines_explained() {
     const std::vector<std::string> lines = {
-#define ENGINE(choice, name, what) name ": " what,
+#define ENGINE(choice, name, what) std::string(name) + ": " + (what),
 #include "scene/engines.def"
     };
     return fmt::format("{}", fmt::join(lines, "; "));

@@ -159,6 +159,7 @@ void for_reached(const CellView& cells, std::int32_t self, double skin, const Bo
         };
         const std::vector<CellAt> columns = met(0), rows = met(1), layers = met(2);
         std::vector<CellAt> whole_row;
+        whole_row.reserve(static_cast<std::size_t>(grid.count[0]));
         for (std::int32_t n = 0; n < grid.count[0]; ++n) whole_row.push_back({n, false});
         for (const CellAt layer : layers)
             for (const CellAt row : rows)
