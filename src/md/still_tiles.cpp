@@ -15,7 +15,7 @@ Range grains_of(std::size_t tile, const State& state) {
 }
 
 template <class T> bool same(const T* a, const T* b, std::size_t count) {
-    return std::memcmp(a, b, count * sizeof(T)) == 0;
+    return count == 0 || std::memcmp(a, b, count * sizeof(T)) == 0;
 }
 template <class T> bool same(const std::vector<T>& a, const T* b) {
     return same(a.data(), b, a.size());
