@@ -47,6 +47,7 @@ std::array<double, 7> fermi_dirac(double density, double j_x, double j_y, int bi
         return n;
     }
     std::array<double, 3> z{std::log(1 / filling - 1), 0, 0}; // alpha, beta
+    double left = 1;
     for (int round = 0; round < 100; ++round) {
         double jacobian[3][3] = {};
         std::array<double, 3> off{density, j_x, j_y};
@@ -60,11 +61,12 @@ std::array<double, 7> fermi_dirac(double density, double j_x, double j_y, int bi
                 for (std::size_t k = 0; k < 3; ++k) jacobian[r][k] -= occupied * (1 - occupied) * v[r] * v[k];
             }
         }
-        if (std::abs(off[0]) + std::abs(off[1]) + std::abs(off[2]) < 1e-14 * (1 + density)) return n;
+        left = std::abs(off[0]) + std::abs(off[1]) + std::abs(off[2]);
+        if (left < 1e-14 * (1 + density)) return n;
         const std::array<double, 3> step = solve(jacobian, off);
         for (std::size_t k = 0; k < 3; ++k) z[k] += step[k];
     }
-    if (!(n[0] >= 0)) n.fill(std::numeric_limits<double>::quiet_NaN());
+    if (!(left < 1e-10)) n.fill(std::numeric_limits<double>::quiet_NaN());
     return n;
 }
 

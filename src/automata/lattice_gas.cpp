@@ -1,6 +1,7 @@
 // The lattice gas of a scene: obstacles, and particles in equilibrium.
 #include "automata/equilibrium.hpp"
 #include "automata/gas.hpp"
+#include "core/error.hpp"
 
 #include <cmath>
 
@@ -54,8 +55,15 @@ std::unique_ptr<Model> make_lattice_gas(const scene::Scene& scene, const Means& 
     GasLattice lattice(static_cast<std::int32_t>(s.columns), static_cast<std::int32_t>(s.rows));
     put_obstacles(lattice, scene.obstacles, rules.directions() == 4);
     const double particles = s.density * rules.planes();
-    fill(lattice, rules,
-         fermi_dirac(particles, particles * s.velocity.x, particles * s.velocity.y, rules.planes()));
+    const auto occupied =
+        fermi_dirac(particles, particles * s.velocity.x, particles * s.velocity.y, rules.planes());
+    if (std::isnan(occupied[0]))
+        fail(Exit::invalid_input,
+             "lattice_gas.velocity: {} at a density of {} is more than the particles of one site can have; "
+             "take "
+             "a lower velocity, or a density nearer to 0.5",
+             std::hypot(s.velocity.x, s.velocity.y), s.density);
+    fill(lattice, rules, occupied);
     return std::make_unique<GasFlow>(std::move(lattice), rules, means, s.active_tiles);
 }
 

@@ -65,11 +65,13 @@ SANDLANE_INLINE Vector<R> direction_in_plane(const Vector<R>& g, const R& speed,
 }
 
 // Pair correlation at contact of a fluid of packing fraction phi: Carnahan and Starling in space, Henderson
-// in the plane.
+// in the plane. There is no fluid beyond freezing: a denser cell, which particles without volume may well
+// make, counts as one that freezes.
+inline constexpr double freezing_fraction[] = {0.69, 0.49}; // plane, space
 template <class R> SANDLANE_INLINE R contact_correlation(int dimension, const R& phi) {
-    const R free = R(1.0) - phi;
-    if (dimension == 3) return (R(1.0) - R(0.5) * phi) / (free * free * free);
-    return (R(1.0) - R(7.0 / 16) * phi) / (free * free);
+    const R fluid = min(phi, R(freezing_fraction[dimension - 2])), free = R(1.0) - fluid;
+    if (dimension == 3) return (R(1.0) - R(0.5) * fluid) / (free * free * free);
+    return (R(1.0) - R(7.0 / 16) * fluid) / (free * free);
 }
 
 } // namespace sandlane::laws

@@ -25,7 +25,9 @@ struct PlotAxis {
             low = std::floor(low);
             high = std::ceil(high);
         }
-        if (!(high > low)) high = low + 1;
+        // Ticks need room between numbers: what differs by rounding counts as equal.
+        const double size = std::max(std::abs(low), std::abs(high));
+        if (!(high - low > 1e-9 * size)) high = low + std::max(1.0, 1e-3 * size);
     }
     [[nodiscard]] double place(double value) const { return logarithmic ? std::log10(value) : value; }
     [[nodiscard]] double share(double value) const { return (place(value) - low) / (high - low); }

@@ -68,6 +68,10 @@ void validate_sandpile(const Scene& scene, const std::string& file) {
     if (s.start != PileStart::uniform && (s.height != 0 || s.centre != 0 || s.drive != PileDrive::none))
         fail(Exit::invalid_input,
              "{}: sandpile.start: an identity knows its heights; leave out height, centre and drive", file);
+    if (s.drive != PileDrive::none && s.height + s.centre > 255)
+        fail(Exit::invalid_input,
+             "{}: sandpile.centre: {} grains on {}; allowed on a driven pile: 255 together", file, s.centre,
+             s.height);
     if (s.drive != PileDrive::none && s.steps == 0)
         fail(Exit::invalid_input, "{}: sandpile.steps: is missing; a driven pile needs a number of grains",
              file);

@@ -1,5 +1,6 @@
 // What one key of a gas cannot know alone.
 #include "core/error.hpp"
+#include "laws/collision.hpp"
 #include "scene/schema.hpp"
 #include "scene/space.hpp"
 
@@ -41,7 +42,7 @@ struct GasValidator {
         const double packing = static_cast<double>(gas.particles) * gas.weight *
                                grain_content(0.5 * gas.diameter, scene.domain.dimension) / volume;
         // Beyond freezing there is no fluid that the contact values were made for.
-        const double most = scene.domain.dimension == 3 ? 0.49 : 0.69;
+        const double most = laws::freezing_fraction[scene.domain.dimension - 2];
         if (packing > most)
             reject(
                 "gas: the packing fraction is {:.4g}; allowed: up to {}, where the fluid freezes. Take fewer "
@@ -102,6 +103,11 @@ struct GasValidator {
             reject("dsmc.profile_axis: a plane has no z axis");
         if (d.adaptive && d.heating > 0)
             reject("dsmc.adaptive: a heated gas does not cool down; leave out adaptive or heating");
+        for (std::size_t n = 0; n < scene.sides.size(); ++n)
+            if (d.adaptive && (scene.sides[n].kind == SideKind::heated || scene.sides[n].amplitude > 0))
+                reject("dsmc.adaptive: sides[{}] heats the gas, which then does not cool down; leave out "
+                       "adaptive",
+                       n);
     }
 };
 
