@@ -103,11 +103,6 @@ struct GasValidator {
             reject("dsmc.profile_axis: a plane has no z axis");
         if (d.adaptive && d.heating > 0)
             reject("dsmc.adaptive: a heated gas does not cool down; leave out adaptive or heating");
-        for (std::size_t n = 0; n < scene.sides.size(); ++n)
-            if (d.adaptive && (scene.sides[n].kind == SideKind::heated || scene.sides[n].amplitude > 0))
-                reject("dsmc.adaptive: sides[{}] heats the gas, which then does not cool down; leave out "
-                       "adaptive",
-                       n);
     }
 };
 
