@@ -19,13 +19,13 @@ namespace sandlane::simd {
 
 const RateKernels& rate_kernels_scalar();
 #define ISA(name) const RateKernels& rate_kernels_##name();
-#include "bench/rates.def"
+#include "isas.def"
 #undef ISA
 
 const RateKernels& rate_kernels(Isa isa) {
 #define ISA(name)                                                                                            \
     if (isa == Isa::name) return rate_kernels_##name();
-#include "bench/rates.def"
+#include "isas.def"
 #undef ISA
     return rate_kernels_scalar();
 }

@@ -9,30 +9,18 @@
 namespace sandlane::simd {
 
 const MdKernels& md_kernels_scalar();
-#if defined(SANDLANE_ISA_sse4_2)
-const MdKernels& md_kernels_sse4_2();
-#endif
-#if defined(SANDLANE_ISA_avx2)
-const MdKernels& md_kernels_avx2();
-#endif
-#if defined(SANDLANE_ISA_avx512)
-const MdKernels& md_kernels_avx512();
-#endif
+
+#define ISA(name) const MdKernels& md_kernels_##name();
+#include "isas.def"
+#undef ISA
 
 const MdKernels& md_kernels(Isa isa) {
     switch (isa) {
-#if defined(SANDLANE_ISA_sse4_2)
-    case Isa::sse4_2:
-        return md_kernels_sse4_2();
-#endif
-#if defined(SANDLANE_ISA_avx2)
-    case Isa::avx2:
-        return md_kernels_avx2();
-#endif
-#if defined(SANDLANE_ISA_avx512)
-    case Isa::avx512:
-        return md_kernels_avx512();
-#endif
+#define ISA(name)                                                                                            \
+    case Isa::name:                                                                                          \
+        return md_kernels_##name();
+#include "isas.def"
+#undef ISA
     default:
         return md_kernels_scalar();
     }

@@ -1,5 +1,5 @@
-// Blocks of eight 64-bit words beside the blocks of eight doubles of lanes.hpp: counter-based random numbers
-// in lanes, and the exponents of doubles.
+// Registers of 64-bit words, and blocks of eight words beside the blocks of eight doubles of lanes.hpp:
+// counter-based random numbers in lanes, and the exponents of doubles.
 #pragma once
 
 #include "simd/lanes.hpp"
@@ -9,163 +9,90 @@
 
 namespace sandlane::simd {
 
-// One register of words; this one is the portable form.
-template <class Arch> struct WordRegister {
-    static constexpr int lanes = 8;
-    struct T {
-        std::uint64_t w[lanes];
-    };
-    template <class F> static SANDLANE_INLINE T each(const F& f) {
-        T r;
-        for (int l = 0; l < lanes; ++l) r.w[l] = f(l);
-        return r;
-    }
-    static SANDLANE_INLINE T set(std::uint64_t v) {
-        return each([&](int) { return v; });
-    }
-    static SANDLANE_INLINE T load(const std::uint64_t* from) {
-        return each([&](int l) { return from[l]; });
-    }
-    static SANDLANE_INLINE void store(std::uint64_t* to, const T& a) {
-        for (int l = 0; l < lanes; ++l) to[l] = a.w[l];
-    }
-    static SANDLANE_INLINE T add(const T& a, const T& b) {
-        return each([&](int l) { return a.w[l] + b.w[l]; });
-    }
-    static SANDLANE_INLINE T subtract(const T& a, const T& b) {
-        return each([&](int l) { return a.w[l] - b.w[l]; });
-    }
-    static SANDLANE_INLINE T exclusive(const T& a, const T& b) {
-        return each([&](int l) { return a.w[l] ^ b.w[l]; });
-    }
-    static SANDLANE_INLINE T both(const T& a, const T& b) {
-        return each([&](int l) { return a.w[l] & b.w[l]; });
-    }
-    static SANDLANE_INLINE T product(const T& a, const T& b) { // of the lower halves
-        return each([&](int l) { return (a.w[l] & 0xffffffffu) * (b.w[l] & 0xffffffffu); });
-    }
-    template <int n> static SANDLANE_INLINE T right(const T& a) {
-        return each([&](int l) { return a.w[l] >> n; });
-    }
-    template <int n> static SANDLANE_INLINE T left(const T& a) {
-        return each([&](int l) { return a.w[l] << n; });
-    }
-};
+// One register of words.
+template <class Arch> using WordBatch = xsimd::batch<std::uint64_t, Arch>;
 
+// Product of the lower halves of the lanes.
+template <class Arch>
+SANDLANE_INLINE WordBatch<Arch> multiply_low(const WordBatch<Arch>& a, const WordBatch<Arch>& b) {
+    const WordBatch<Arch> low(0xffffffffULL);
+    return (a & low) * (b & low);
+}
 #if defined(__AVX512F__)
-template <> struct WordRegister<xsimd::avx512bw> {
-    using T = __m512i;
-    static constexpr int lanes = 8;
-    static SANDLANE_INLINE T set(std::uint64_t v) { return _mm512_set1_epi64(static_cast<long long>(v)); }
-    static SANDLANE_INLINE T load(const std::uint64_t* from) { return _mm512_loadu_si512(from); }
-    static SANDLANE_INLINE void store(std::uint64_t* to, T a) { _mm512_storeu_si512(to, a); }
-    static SANDLANE_INLINE T add(T a, T b) { return _mm512_add_epi64(a, b); }
-    static SANDLANE_INLINE T subtract(T a, T b) { return _mm512_sub_epi64(a, b); }
-    static SANDLANE_INLINE T exclusive(T a, T b) { return _mm512_xor_si512(a, b); }
-    static SANDLANE_INLINE T both(T a, T b) { return _mm512_and_si512(a, b); }
-    static SANDLANE_INLINE T product(T a, T b) { return _mm512_mul_epu32(a, b); }
-    template <int n> static SANDLANE_INLINE T right(T a) { return _mm512_srli_epi64(a, n); }
-    template <int n> static SANDLANE_INLINE T left(T a) { return _mm512_slli_epi64(a, n); }
-    static SANDLANE_INLINE T from(__m512d a) { return _mm512_castpd_si512(a); }
-    static SANDLANE_INLINE __m512d to_double(T a) { return _mm512_castsi512_pd(a); }
-};
+SANDLANE_INLINE WordBatch<xsimd::avx512bw> multiply_low(const WordBatch<xsimd::avx512bw>& a,
+                                                        const WordBatch<xsimd::avx512bw>& b) {
+    return _mm512_mul_epu32(a.data, b.data);
+}
 #elif defined(__AVX2__)
-template <> struct WordRegister<xsimd::avx2> {
-    using T = __m256i;
-    static constexpr int lanes = 4;
-    static SANDLANE_INLINE T set(std::uint64_t v) { return _mm256_set1_epi64x(static_cast<long long>(v)); }
-    static SANDLANE_INLINE T load(const std::uint64_t* from) {
-        return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
-    }
-    static SANDLANE_INLINE void store(std::uint64_t* to, T a) {
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), a);
-    }
-    static SANDLANE_INLINE T add(T a, T b) { return _mm256_add_epi64(a, b); }
-    static SANDLANE_INLINE T subtract(T a, T b) { return _mm256_sub_epi64(a, b); }
-    static SANDLANE_INLINE T exclusive(T a, T b) { return _mm256_xor_si256(a, b); }
-    static SANDLANE_INLINE T both(T a, T b) { return _mm256_and_si256(a, b); }
-    static SANDLANE_INLINE T product(T a, T b) { return _mm256_mul_epu32(a, b); }
-    template <int n> static SANDLANE_INLINE T right(T a) { return _mm256_srli_epi64(a, n); }
-    template <int n> static SANDLANE_INLINE T left(T a) { return _mm256_slli_epi64(a, n); }
-    static SANDLANE_INLINE T from(__m256d a) { return _mm256_castpd_si256(a); }
-    static SANDLANE_INLINE __m256d to_double(T a) { return _mm256_castsi256_pd(a); }
-};
+SANDLANE_INLINE WordBatch<xsimd::avx2> multiply_low(const WordBatch<xsimd::avx2>& a,
+                                                    const WordBatch<xsimd::avx2>& b) {
+    return _mm256_mul_epu32(a.data, b.data);
+}
 #elif defined(__SSE4_2__)
-template <> struct WordRegister<xsimd::sse4_2> {
-    using T = __m128i;
-    static constexpr int lanes = 2;
-    static SANDLANE_INLINE T set(std::uint64_t v) { return _mm_set1_epi64x(static_cast<long long>(v)); }
-    static SANDLANE_INLINE T load(const std::uint64_t* from) {
-        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
-    }
-    static SANDLANE_INLINE void store(std::uint64_t* to, T a) {
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(to), a);
-    }
-    static SANDLANE_INLINE T add(T a, T b) { return _mm_add_epi64(a, b); }
-    static SANDLANE_INLINE T subtract(T a, T b) { return _mm_sub_epi64(a, b); }
-    static SANDLANE_INLINE T exclusive(T a, T b) { return _mm_xor_si128(a, b); }
-    static SANDLANE_INLINE T both(T a, T b) { return _mm_and_si128(a, b); }
-    static SANDLANE_INLINE T product(T a, T b) { return _mm_mul_epu32(a, b); }
-    template <int n> static SANDLANE_INLINE T right(T a) { return _mm_srli_epi64(a, n); }
-    template <int n> static SANDLANE_INLINE T left(T a) { return _mm_slli_epi64(a, n); }
-    static SANDLANE_INLINE T from(__m128d a) { return _mm_castpd_si128(a); }
-    static SANDLANE_INLINE __m128d to_double(T a) { return _mm_castsi128_pd(a); }
-};
+SANDLANE_INLINE WordBatch<xsimd::sse4_2> multiply_low(const WordBatch<xsimd::sse4_2>& a,
+                                                      const WordBatch<xsimd::sse4_2>& b) {
+    return _mm_mul_epu32(a.data, b.data);
+}
 #endif
 
+// The constants of Philox4x32 (core/rng.hpp): multipliers, and what is added to the key in each round.
+inline constexpr std::uint64_t philox_multiplier[] = {0xD2511F53u, 0xCD9E8D57u};
+inline constexpr std::uint32_t philox_increment[] = {0x9E3779B9u, 0xBB67AE85u};
+
+// Eight words.
 template <class Arch> struct Words {
-    using Register = WordRegister<Arch>;
-    static constexpr int lanes = Register::lanes;
+    using Batch = WordBatch<Arch>;
+    static constexpr int lanes = static_cast<int>(Batch::size);
     static constexpr int parts = width / lanes;
-    typename Register::T p[parts];
+    Batch p[parts];
 
     Words() = default;
     SANDLANE_INLINE Words(std::uint64_t value) { // NOLINT: as for blocks
-        for (int i = 0; i < parts; ++i) p[i] = Register::set(value);
+        for (int i = 0; i < parts; ++i) p[i] = Batch(value);
     }
     static SANDLANE_INLINE Words load(const std::uint64_t* from) { // unaligned
         Words r;
-        for (int i = 0; i < parts; ++i) r.p[i] = Register::load(from + i * lanes);
+        for (int i = 0; i < parts; ++i) r.p[i] = Batch::load_unaligned(from + i * lanes);
         return r;
     }
     SANDLANE_INLINE void store(std::uint64_t* to) const {
-        for (int i = 0; i < parts; ++i) Register::store(to + i * lanes, p[i]);
+        for (int i = 0; i < parts; ++i) p[i].store_unaligned(to + i * lanes);
     }
 };
 
-#define SANDLANE_WORDS(name, call)                                                                           \
+#define SANDLANE_WORDS(name, result)                                                                         \
     template <class A> SANDLANE_INLINE Words<A> name(const Words<A>& a, const Words<A>& b) {                 \
         Words<A> r;                                                                                          \
-        for (int i = 0; i < Words<A>::parts; ++i) r.p[i] = WordRegister<A>::call(a.p[i], b.p[i]);            \
+        for (int i = 0; i < Words<A>::parts; ++i) r.p[i] = result;                                           \
         return r;                                                                                            \
     }
-SANDLANE_WORDS(operator+, add)
-SANDLANE_WORDS(operator-, subtract)
-SANDLANE_WORDS(operator^, exclusive)
-SANDLANE_WORDS(operator&, both)
-SANDLANE_WORDS(product, product) // of the lower 32 bits of each
+SANDLANE_WORDS(operator+, a.p[i] + b.p[i])
+SANDLANE_WORDS(operator-, a.p[i] - b.p[i])
+SANDLANE_WORDS(operator^, a.p[i] ^ b.p[i])
+SANDLANE_WORDS(operator&, a.p[i] & b.p[i])
+SANDLANE_WORDS(product, multiply_low(a.p[i], b.p[i])) // of the lower 32 bits of each
 #undef SANDLANE_WORDS
+// Shifts by constants.
 template <int n, class A> SANDLANE_INLINE Words<A> right(const Words<A>& a) {
     Words<A> r;
-    for (int i = 0; i < Words<A>::parts; ++i) r.p[i] = WordRegister<A>::template right<n>(a.p[i]);
+    for (int i = 0; i < Words<A>::parts; ++i) r.p[i] = a.p[i] >> n;
     return r;
 }
 template <int n, class A> SANDLANE_INLINE Words<A> left(const Words<A>& a) {
     Words<A> r;
-    for (int i = 0; i < Words<A>::parts; ++i) r.p[i] = WordRegister<A>::template left<n>(a.p[i]);
+    for (int i = 0; i < Words<A>::parts; ++i) r.p[i] = a.p[i] << n;
     return r;
 }
 
 // The bits of doubles as words and back.
 template <class A> SANDLANE_INLINE Words<A> words_of(const Block<A>& b) {
     Words<A> r;
-    for (int i = 0; i < Words<A>::parts; ++i) r.p[i] = WordRegister<A>::from(b.p[i].data);
+    for (int i = 0; i < Words<A>::parts; ++i) r.p[i] = xsimd::bitwise_cast<WordBatch<A>>(b.p[i]);
     return r;
 }
 template <class A> SANDLANE_INLINE Block<A> block_of(const Words<A>& w) {
     Block<A> r;
-    for (int i = 0; i < Words<A>::parts; ++i)
-        r.p[i] = typename Block<A>::Batch(WordRegister<A>::to_double(w.p[i]));
+    for (int i = 0; i < Words<A>::parts; ++i) r.p[i] = xsimd::bitwise_cast<typename Block<A>::Batch>(w.p[i]);
     return r;
 }
 
@@ -205,8 +132,8 @@ public:
         for (int round = 0; round < rounds; ++round) {
             key_[round][0] = k0;
             key_[round][1] = k1;
-            k0 += 0x9E3779B9u;
-            k1 += 0xBB67AE85u;
+            k0 += philox_increment[0];
+            k1 += philox_increment[1];
         }
         set(c0, c2, c3);
     }
@@ -244,7 +171,7 @@ public:
 
 private:
     static constexpr int rounds = 10;
-    static constexpr std::uint64_t m0 = 0xD2511F53u, m1 = 0xCD9E8D57u;
+    static constexpr std::uint64_t m0 = philox_multiplier[0], m1 = philox_multiplier[1];
     static SANDLANE_INLINE std::uint64_t high(std::uint64_t p) { return p >> 32; }
     static SANDLANE_INLINE std::uint64_t low(std::uint64_t p) { return p & 0xffffffffu; }
 

@@ -5,6 +5,8 @@ import math
 
 import numpy
 
+import dump
+
 gravity = {"bed": (0.0, 0.0, -1.0), "column": (0.0, 0.0, -1.0),
            "chute": (math.sin(math.radians(20)), 0.0, -math.cos(math.radians(20)))}
 time_step = 1e-4  # t_c/50 of both laws, of Hertz for impacts with a speed of 1
@@ -109,12 +111,8 @@ def write_csv(path, grains):
 
 
 def read_dump(path):
-    """Last frame of a LAMMPS dump in the order of ids: {column: values}."""
-    frame = path.read_text().split("ITEM: ATOMS ")[-1].splitlines()
-    names = [name.replace("omega", "omega_") for name in frame[0].split()]
-    values = numpy.array([line.split() for line in frame[1:] if line and not line.startswith("ITEM")], dtype=float)
-    values = values[numpy.argsort(values[:, names.index("id")])]
-    found = dict(zip(names, values.T))
+    """Last frame of a dump in the order of ids: {column: values}."""
+    found = {name.replace("omega", "omega_"): values for name, values in dump.read_dump(path).items()}
     return {name: found[name] for name in columns if name in found}
 
 

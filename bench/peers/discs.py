@@ -8,6 +8,8 @@ import dataclasses
 import numpy
 from scipy.spatial import cKDTree
 
+import dump
+
 columns = ("x", "y", "vx", "vy", "omega", "radius", "mass")
 
 
@@ -121,14 +123,9 @@ if "${{write}} == 1" then "write_dump all custom lammps.dump id x y vx vy omegaz
 
 
 def read_dump(path):
-    """Last frame of a LAMMPS dump, as both programs write it, in the order of ids: {column: values}."""
-    frame = path.read_text().split("ITEM: ATOMS ")[-1].splitlines()
-    names = frame[0].split()
-    values = numpy.array([line.split() for line in frame[1:] if line and not line.startswith("ITEM")], dtype=float)
-    values = values[numpy.argsort(values[:, names.index("id")])]
-    discs = dict(zip(names, values.T))
-    discs["omega"] = discs["omegaz"]
-    return {name: discs[name] for name in columns}
+    """Last frame of a dump, as both programs write it, in the order of ids: {column: values}."""
+    found = dump.read_dump(path)
+    return {name: found["omegaz" if name == "omega" else name] for name in columns}
 
 
 def observables(discs, box, law_name):

@@ -4,14 +4,13 @@ First both go some hundred steps from one state and their energies, contacts and
 in turn for their rates. What each of them reads and writes stays in build/bench/peers/.
 """
 import json
-import os
-import re
 import shutil
 import statistics
-import subprocess
 
 import discs
 import measure
+import programs
+from dump import loop_rate
 
 agitate_steps = 2000
 check_steps = 300  # six collision times of t_c = 50 dt
@@ -20,17 +19,9 @@ check_steps = 300  # six collision times of t_c = 50 dt
 energy_tolerance = 1e-3
 skins = (0.1, 0.2, 0.4)  # LAMMPS runs with the fastest of them
 
-one_core = min(os.sched_getaffinity(0))
-
 
 def run(command, folder):
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True,
-                          env=dict(os.environ, OMP_NUM_THREADS="1"),
-                          preexec_fn=lambda: os.sched_setaffinity(0, {one_core}))
-    if done.returncode != 0:
-        words = " ".join(map(str, command))
-        raise SystemExit(f"{words} failed in {folder}:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
-    return done.stdout
+    return programs.run(command, folder, cores=1)[0]
 
 
 def time_step(folder):
@@ -51,8 +42,7 @@ def lammps(folder, steps, trajectory=False):
     """Particle-steps per second of the run loop; with trajectory, a frame of the last step in lammps.dump."""
     text = run(["lmp", "-in", "in.lmp", "-log", "none", "-var", "steps", str(steps), "-var", "write",
                 str(int(trajectory))], folder)
-    seconds, done, atoms = re.search(r"Loop time of (\S+) on 1 procs for (\d+) steps with (\d+) atoms", text).groups()
-    return int(done) * int(atoms) / float(seconds)
+    return loop_rate(text)
 
 
 def prepare(folder, law, phi, grains):

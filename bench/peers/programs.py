@@ -5,10 +5,10 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 
 import bed
 import measure
+from dump import loop_rate
 
 
 def run(command, folder, cores):
@@ -33,12 +33,6 @@ def run(command, folder, cores):
 def parallel(command, cores):
     """A program of MPI on so many cores."""
     return command if cores == 1 else ["mpirun", "--allow-run-as-root", "--bind-to", "none", "-np", str(cores), *command]
-
-
-def loop_rate(text):
-    """Particle-steps per second of the last run that LAMMPS or LIGGGHTS reports."""
-    seconds, steps, atoms = re.findall(r"Loop time of (\S+) on \d+ procs for (\d+) steps with (\d+) atoms", text)[-1]
-    return int(steps) * int(atoms) / float(seconds)
 
 
 class Program:

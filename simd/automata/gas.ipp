@@ -10,7 +10,7 @@
 namespace sandlane::simd {
 
 template <class Arch> struct GasRows {
-    using W = Words<Arch>;
+    using W = WordBatch<Arch>;
     static constexpr std::int32_t lanes = static_cast<std::int32_t>(W::size);
     static constexpr std::int32_t pad = segment_words;
 

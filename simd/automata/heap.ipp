@@ -7,7 +7,7 @@
 namespace sandlane::simd {
 
 template <class Arch, bool rough> struct HeapLanes {
-    using W = Words<Arch>;
+    using W = WordBatch<Arch>;
     using D = xsimd::batch<double, Arch>;
     static constexpr int lanes = static_cast<int>(D::size);
 

@@ -10,7 +10,7 @@ namespace sandlane::simd {
 // Heights of `bytes` bytes. unit: a site topples once, else as often as its height allows. counting:
 // topplings of each site are added up.
 template <class Arch, int bytes, bool unit, bool counting = false> struct PileSweeps {
-    using W = Words<Arch>;
+    using W = WordBatch<Arch>;
     static constexpr int bits = 8 * bytes;
     static constexpr std::uint64_t one = bytes == 1 ? 0x0101010101010101ULL : 0x0001000100010001ULL;
     static constexpr std::ptrdiff_t register_bytes = static_cast<std::ptrdiff_t>(8 * W::size);

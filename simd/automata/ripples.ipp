@@ -7,7 +7,7 @@
 namespace sandlane::simd {
 
 template <class Arch> struct RippleRows {
-    using W = Words<Arch>;
+    using W = WordBatch<Arch>;
     using D = xsimd::batch<double, Arch>;
     static constexpr std::int32_t lanes = static_cast<std::int32_t>(W::size);
 

@@ -114,9 +114,9 @@ struct GasFlightView {
 };
 struct GasFlight {
     std::int32_t stay = 0, leave = 0;
-    std::int64_t stuck = 0; // particles that hit walls more than 64 times in one flight
-    double square_sum = 0;  // of the velocities, (m/s)^2, before the flight
-    double wall_energy = 0; // that walls gave, per mass
+    std::int64_t stuck = 0;     // particles that hit walls more than 64 times in one flight
+    double square_sum = 0;      // of the velocities, (m/s)^2, before the flight
+    double wall_energy[2] = {}; // that walls gave in either flight, per mass
 };
 using GasFly = GasFlight (*)(const GasFlightView&);
 

@@ -79,7 +79,8 @@ SANDLANE_INLINE void for_runs_of_classes(const CellView& cells, std::int32_t sel
         Reach within[3] = {};
         for (int d = 0; d < dimension; ++d) within[d] = cells_within(x[d], reach, grid, d, cells.periodic[d]);
         // Of cells smaller than the particle those in the corners of the box around it are left out.
-        const bool round = within[1].last - within[1].first > 3 && !within[1].all && !within[2].all;
+        const bool round =
+            within[1].last - within[1].first > 3 && !within[0].all && !within[1].all && !within[2].all;
         for (std::int32_t layer = within[2].first; layer <= within[2].last; ++layer)
             for (std::int32_t row = within[1].first; row <= within[1].last; ++row) {
                 const std::ptrdiff_t line = std::ptrdiff_t{wrapped(layer, grid.count[2])} * grid.count[1] +

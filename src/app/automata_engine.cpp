@@ -147,8 +147,8 @@ private:
 
 class AutomataEngine final : public Engine {
 public:
-    AutomataEngine(const scene::Scene& scene, const automata::Means& means)
-        : scene_(scene), means_(means), words_(words_of(scene)), model_(automata::make_model(scene, means)) {}
+    AutomataEngine(const scene::Scene& scene, const automata::Means& means, std::unique_ptr<Model> model)
+        : scene_(scene), means_(means), words_(words_of(scene)), model_(std::move(model)) {}
 
     [[nodiscard]] const Words& words() const override { return words_; }
     [[nodiscard]] const scene::Scene& scene() const override { return scene_; }
@@ -253,14 +253,14 @@ public:
 
     [[nodiscard]] double memory_bytes() const override { return automata::memory_bytes(scene_); }
     [[nodiscard]] std::string description() const override {
-        const std::unique_ptr<Model> model = automata::make_model(scene_, means_);
+        if (facts_.empty()) facts_ = automata::make_model(scene_, means_)->facts();
         const Words words = words_of(scene_);
         std::string text = fmt::format("{}\n\nPlan\n", scene_.title.empty() ? "(untitled)" : scene_.title);
         const auto line = [&](const std::string& label, const std::string& value) {
             text += fmt::format("  {:<26}{}\n", label, value);
         };
         line("engine", std::string(scene::engine_choices()[static_cast<std::size_t>(scene_.method)]));
-        for (const auto& [label, value] : model->facts()) line(label, value);
+        for (const auto& [label, value] : facts_) line(label, value);
         const std::int64_t steps = steps_of(scene_);
         line(words.steps, steps > 0 ? std::to_string(steps) : "until nothing changes");
         line("memory", fmt::format("about {:.3g} MB", memory_bytes() / 1e6));
@@ -275,11 +275,15 @@ public:
     }
     [[nodiscard]] std::unique_ptr<Engine> start() const override { return start(means_.isa); }
     [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) const override {
-        return std::make_unique<AutomataEngine>(scene_, automata::Means{isa, means_.threads});
+        const automata::Means means{isa, means_.threads};
+        std::unique_ptr<Model> model = automata::make_model(scene_, means);
+        facts_ = model->facts();
+        return std::make_unique<AutomataEngine>(scene_, means, std::move(model));
     }
 
 private:
     scene::Scene scene_;
+    mutable automata::Facts facts_; // for description(), once a model was made
     Machine machine_;
     automata::Means means_;
 };

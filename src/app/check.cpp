@@ -45,12 +45,12 @@ BenchResult time_steps(const scene::Scene& scene, Common common, simd::Isa isa, 
     common.threads = threads;
     const std::unique_ptr<Engine> engine = prepare(scene, common)->start();
     engine->run(steps / 10 + 1);
-    const std::int64_t before = engine->step();
+    const std::int64_t before = engine->taken();
     const Stopwatch clock;
     engine->run(steps);
     const double seconds = clock.seconds();
     return {isa, threads, engine->words(), seconds,
-            static_cast<double>(engine->step() - before) * static_cast<double>(engine->size()) / seconds};
+            static_cast<double>(engine->taken() - before) * static_cast<double>(engine->size()) / seconds};
 }
 
 } // namespace

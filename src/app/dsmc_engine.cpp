@@ -63,7 +63,7 @@ void DsmcEngine::run(std::int64_t steps) {
 
 // The number of steps of an adaptive run is known at its end only.
 std::int64_t DsmcEngine::steps() const {
-    return adaptive() ? 10 * plan_->steps + 1000 : plan_->steps;
+    return adaptive() ? std::numeric_limits<std::int64_t>::max() : plan_->steps;
 }
 
 bool DsmcEngine::finished() const {

@@ -27,6 +27,7 @@ public:
     void run(std::int64_t steps) override;
     [[nodiscard]] std::int64_t step() const override { return simulation_.step(); }
     [[nodiscard]] std::int64_t steps() const override;
+    [[nodiscard]] std::int64_t expected_steps() const override { return plan_->steps; }
     [[nodiscard]] bool finished() const override;
     [[nodiscard]] double time() const override { return simulation_.time(); }
     [[nodiscard]] double time_step() const override;

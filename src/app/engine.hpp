@@ -69,8 +69,10 @@ public:
 
     // ---- going on
     virtual void run(std::int64_t steps) = 0;
-    [[nodiscard]] virtual std::int64_t step() const = 0;          // done since the start of the scene
-    [[nodiscard]] virtual std::int64_t steps() const = 0;         // that the scene asks for
+    [[nodiscard]] virtual std::int64_t step() const = 0;  // done since the start of the scene
+    [[nodiscard]] virtual std::int64_t steps() const = 0; // that the scene asks for
+    // The same, for progress, where only finished() tells.
+    [[nodiscard]] virtual std::int64_t expected_steps() const { return steps(); }
     [[nodiscard]] virtual bool finished() const { return false; } // further steps would change nothing
     // Where steps have unequal lengths they are counted in parts: run() ends with the first whole step at or
     // after the parts asked for, all steps meet at multiples of stride(), and taken() counts them since the

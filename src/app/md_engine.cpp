@@ -115,8 +115,8 @@ std::string MdEngine::summary_json() const {
 std::vector<std::pair<std::string, std::string>> MdEngine::report_rows() const {
     return {{"Grains", std::to_string(size())},
             {"Simulated time", fmt::format("{:.4g} s", time())},
-            {"Steps", std::to_string(step())},
-            {"Time step", fmt::format("{:.4g} s", time_step())}};
+            {stride() > 1 ? "Shortest units of the time step" : "Steps", std::to_string(step())},
+            {"Time step", fmt::format("{:.4g} s", simulation_.plan().dt)}};
 }
 
 namespace {

@@ -63,7 +63,9 @@ public:
     Loop(Engine& engine, RunOutputs& outputs, const Common& common, const RunOptions& options)
         : engine_(engine), outputs_(outputs), last_(last_step(engine, options)), walltime_(options.walltime),
           check_every_(whole_strides(engine, options.check_every)),
-          progress_(engine.step(), last_, common.quiet, engine.words().work, engine.words().time_unit) {}
+          progress_(engine.step(),
+                    std::min(last_, engine.step() + std::max<std::int64_t>(1, engine.expected_steps())),
+                    common.quiet, engine.words().work, engine.words().time_unit) {}
 
     Status run(const Stopwatch& wall) {
         while (engine_.step() < last_) {

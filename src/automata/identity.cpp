@@ -75,7 +75,8 @@ std::vector<std::int32_t> toppling_matrix(const Potential& p) {
     c.reserve(p.w.size());
     for (std::int32_t y = 0; y < p.rows; ++y)
         for (std::int32_t x = 0; x < p.columns; ++x)
-            c.push_back(4 * p.at(x, y) - p.at(x - 1, y) - p.at(x + 1, y) - p.at(x, y - 1) - p.at(x, y + 1));
+            c.push_back(static_cast<std::int32_t>(std::int64_t{4} * p.at(x, y) - p.at(x - 1, y) -
+                                                  p.at(x + 1, y) - p.at(x, y - 1) - p.at(x, y + 1)));
     return c;
 }
 

@@ -8,28 +8,39 @@
 
 namespace sandlane::automata {
 
+// Lattices, and the numbers of a picture of them.
 double memory_bytes(const scene::Scene& scene) {
+    constexpr double picture = 24; // a site: three copies
     const auto sites = [](std::int64_t columns, std::int64_t rows) {
         return static_cast<double>(columns) * static_cast<double>(rows);
     };
+    const auto bits = [&](std::int64_t columns, std::int64_t rows, int planes) {
+        return sites((columns + 511) / 512 * 512, rows) * planes / 8;
+    };
     switch (scene.method) {
-    case scene::Engine::sandpile: { // two buffers; avalanches mark their sites
+    case scene::Engine::sandpile: { // two buffers; avalanches mark their sites; the search for an identity
         const scene::Sandpile& s = scene.sandpile;
         return sites(s.columns + 128, s.rows + 2) *
-               (2 * (s.height + s.centre > 255 ? 2 : 1) + (s.drive == scene::PileDrive::none ? 0 : 4));
+               (2 * (s.height + s.centre > 255 ? 2 : 1) + (s.drive == scene::PileDrive::none ? 0 : 4) +
+                (s.start == scene::PileStart::doubled ? 20 : 0) + picture);
     }
     case scene::Engine::heap:
-        return sites(scene.heap.columns, scene.heap.heaps) * 4;
+        return sites(scene.heap.columns, scene.heap.heaps) * (4 + picture);
     case scene::Engine::ripples:
-        return sites(scene.ripples.columns, scene.ripples.rows) * 16;
-    case scene::Engine::lattice_gas:
-        return sites((scene.lattice_gas.columns + 511) / 512 * 512, scene.lattice_gas.rows) *
-               (simd::gas_planes + (scene.obstacles.empty() ? 0 : 1)) / 8;
-    case scene::Engine::pipe_flow: // the lattice, the series of the density and the map
-        return sites((scene.pipe_flow.length + 511) / 512 * 512, scene.pipe_flow.width) * simd::gas_planes /
-                   8 +
-               8 * (static_cast<double>(scene.pipe_flow.steps) +
-                    512.0 * static_cast<double>(scene.pipe_flow.length));
+        return sites(scene.ripples.columns, scene.ripples.rows) * (24 + picture);
+    case scene::Engine::lattice_gas: {
+        const scene::LatticeGas& s = scene.lattice_gas;
+        return bits(s.columns, s.rows, simd::gas_planes + (scene.obstacles.empty() ? 0 : 1)) +
+               sites(s.columns, s.rows) * picture;
+    }
+    case scene::Engine::pipe_flow: { // and the series of the density and the map
+        const scene::PipeFlow& s = scene.pipe_flow;
+        const double lattice = s.variant == scene::PipeVariant::counted_rest
+                                   ? sites(s.length, s.width) * 6
+                                   : bits(s.length, s.width, simd::gas_planes);
+        return lattice + sites(s.length, s.width) * picture +
+               8 * (static_cast<double>(s.steps) + 512.0 * static_cast<double>(s.length));
+    }
     default:
         return 0;
     }

@@ -6,9 +6,7 @@
 #include "core/error.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace sandlane::automata {
@@ -52,14 +50,14 @@ std::int64_t RippleStepper::step(Column<std::int64_t>& heights, std::uint32_t t)
             const std::int64_t* row = heights.data() + y * stride + simd::ripple_pad;
             plain.insert(plain.end(), row, row + columns_);
         }
+        const double most = highest * ripple_unit;
+        if (std::any_of(plain.begin(), plain.end(),
+                        [&](std::int64_t h) { return std::abs(static_cast<double>(h)) > most; }))
+            fail_high(); // before the step, as kernels do
         const std::int64_t clamped = reference::step(plain, columns_, rows_, rules_, t);
         for (std::int32_t y = 0; y < rows_; ++y)
             std::copy_n(plain.data() + std::ptrdiff_t{y} * columns_, columns_,
                         heights.data() + y * stride + simd::ripple_pad);
-        const double most = highest * ripple_unit;
-        if (std::any_of(plain.begin(), plain.end(),
-                        [&](std::int64_t h) { return std::abs(static_cast<double>(h)) > most; }))
-            fail_high();
         return clamped;
     }
     simd::RippleView v{};
@@ -101,25 +99,10 @@ std::vector<double> mode_powers(const std::vector<double>& heights, std::int32_t
     const auto n = static_cast<std::size_t>(columns);
     std::vector<double> powers(n / 2, 0);
     const std::int32_t every = std::max(1, rows / 32);
-    std::vector<double> cosine(n);
-    for (std::size_t k = 0; k < n; ++k)
-        cosine[k] = std::cos(2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n));
     for (std::int32_t y = 0; y < rows; y += every) {
         const double* h = heights.data() + static_cast<std::size_t>(y) * n;
-        if (std::has_single_bit(n)) {
-            std::vector<std::complex<double>> values(h, h + n);
-            fourier(values);
-            for (std::size_t m = 0; m < powers.size(); ++m) powers[m] += std::norm(values[m + 1]);
-            continue;
-        }
-        for (std::size_t m = 1; m <= powers.size(); ++m) {
-            double re = 0, im = 0;
-            for (std::size_t x = 0, phase = 0; x < n; ++x, phase = (phase + m) % n) {
-                re += h[x] * cosine[phase];
-                im += h[x] * cosine[(phase + 3 * n / 4) % n];
-            }
-            powers[m - 1] += re * re + im * im;
-        }
+        const std::vector<std::complex<double>> modes = fourier({h, h + n});
+        for (std::size_t m = 0; m < powers.size(); ++m) powers[m] += std::norm(modes[m + 1]);
     }
     return powers;
 }

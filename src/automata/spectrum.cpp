@@ -1,5 +1,7 @@
 #include "automata/spectrum.hpp"
 
+#include <unsupported/Eigen/FFT>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,24 +9,12 @@
 
 namespace sandlane::automata {
 
-void fourier(std::vector<std::complex<double>>& values) {
-    const std::size_t n = values.size();
-    for (std::size_t i = 1, j = 0; i < n; ++i) {
-        std::size_t bit = n >> 1;
-        for (; (j & bit) != 0; bit >>= 1) j ^= bit;
-        j |= bit;
-        if (i < j) std::swap(values[i], values[j]);
-    }
-    for (std::size_t half = 1; half < n; half *= 2)
-        for (std::size_t k = 0; k < half; ++k) {
-            const std::complex<double> turn =
-                std::polar(1.0, -std::numbers::pi * static_cast<double>(k) / static_cast<double>(half));
-            for (std::size_t at = k; at < n; at += 2 * half) {
-                const std::complex<double> odd = values[at + half] * turn;
-                values[at + half] = values[at] - odd;
-                values[at] += odd;
-            }
-        }
+std::vector<std::complex<double>> fourier(const std::vector<std::complex<double>>& values) {
+    if (values.size() < 2) return values; // the library wants more
+    std::vector<std::complex<double>> transformed;
+    Eigen::FFT<double> transform;
+    transform.fwd(transformed, values);
+    return transformed;
 }
 
 Spectrum welch(std::span<const double> series, std::size_t length) {
@@ -44,8 +34,8 @@ Spectrum welch(std::span<const double> series, std::size_t length) {
         mean /= static_cast<double>(length);
         std::vector<std::complex<double>> values(length);
         for (std::size_t i = 0; i < length; ++i) values[i] = window[i] * (series[start + i] - mean);
-        fourier(values);
-        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += std::norm(values[k + 1]);
+        const std::vector<std::complex<double>> transformed = fourier(values);
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += std::norm(transformed[k + 1]);
     }
     for (std::size_t k = 0; k < sums.size(); ++k) {
         result.frequency.push_back(static_cast<double>(k + 1) / static_cast<double>(length));

@@ -7,13 +7,14 @@
 
 namespace sandlane::automata {
 
-// Discrete Fourier transform in place, exp(-2 pi i j k/n); the length is a power of two.
-void fourier(std::vector<std::complex<double>>& values);
+// Discrete Fourier transform, sum over j of values[j] exp(-2 pi i j k/n). Fast for lengths without large
+// primes.
+[[nodiscard]] std::vector<std::complex<double>> fourier(const std::vector<std::complex<double>>& values);
 
 struct Spectrum {
     std::vector<double> frequency, power; // in cycles per sample, above 0; power per frequency
 };
-// Welch's periodogram: Hann windows of `length` (a power of two) that overlap by half, means removed.
+// Welch's periodogram: Hann windows of `length` that overlap by half, means removed.
 [[nodiscard]] Spectrum welch(std::span<const double> series, std::size_t length);
 
 struct Line {

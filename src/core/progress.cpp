@@ -41,7 +41,8 @@ void Progress::update(std::int64_t step, double time, std::size_t things) {
 void Progress::print(std::int64_t step, double time) {
     printed_ = true;
     const double spent = clock_.seconds();
-    const double done = static_cast<double>(step - first_) / static_cast<double>(total_ - first_);
+    const double done =
+        std::min(1.0, static_cast<double>(step - first_) / static_cast<double>(total_ - first_));
     const std::string at = unit_.empty() ? "" : fmt::format(" t={:.4g} {}", time, unit_);
     const std::string text =
         fmt::format("{:3.0f}% step {:.3g}/{:.3g}{} {:.2g} {}/s ETA {}", 100 * done, static_cast<double>(step),

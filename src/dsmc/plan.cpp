@@ -202,7 +202,11 @@ Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& thr
 
 double memory_bytes(const scene::Scene& scene, const Plan& plan) {
     const double row = plan.setup.rough ? 96 : 64;
-    return static_cast<double>(scene.gas.particles) * (1.4 * row + sizeof(Particle)) + plan.threads * 1e6;
+    // Beside the rows, one list of particles for outputs and what a checkpoint holds; a gas of one cell is
+    // sorted whole.
+    const bool whole = plan.setup.cells[0] * plan.setup.cells[1] * plan.setup.cells[2] == 1;
+    return static_cast<double>(scene.gas.particles) * ((whole ? 4 : 2.4) * row + sizeof(Particle)) +
+           plan.threads * 1e6;
 }
 
 std::string describe(const scene::Scene& scene, const Plan& plan) {

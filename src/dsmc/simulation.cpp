@@ -203,10 +203,12 @@ void Simulation::pass(Pass what) {
         counts_.collisions += r.collisions.collisions;
         counts_.violations += r.collisions.violations;
         counts_.stuck += r.flight.stuck;
-        wall_energy_ += r.flight.wall_energy;
         overflows += r.collisions.overflows;
         far_ = far_ || r.far > 0;
     }
+    // One flight after the other: a pass may do both, or either.
+    for (const int flight : {0, 1})
+        for (const Result& r : results_) wall_energy_ += r.flight.wall_energy[flight];
     if (!(squares < std::numeric_limits<double>::max()) || overflows > 0)
         fail(Exit::unstable, "step {}: {} (dt = {} s); use a smaller time step", step_,
              overflows > 0 ? "a cell wants more than a million collisions" : "velocities are not finite",

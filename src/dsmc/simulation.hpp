@@ -57,9 +57,10 @@ public:
 
     // Complete state for checkpoints; restore() needs a Simulation of the same setup.
     [[nodiscard]] std::string serialise() const;
-    void restore(const std::string& bytes);
+    void restore(const std::string& bytes); // throws Error(io) for a state of another box, cells or dt
 
 private:
+    [[nodiscard]] std::string frame() const;
     struct Rows {
         Column<double> place, velocity, spin;
         void require(std::size_t rows, bool rough, bool keep);

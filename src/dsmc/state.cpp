@@ -87,8 +87,21 @@ Hash128 Simulation::state_hash() const {
     return hash_bytes(out.bytes().data(), out.bytes().size());
 }
 
+// What a state is bound to: bytes that equal setups share.
+std::string Simulation::frame() const {
+    ByteWriter out;
+    out.put(setup_.dt);
+    for (int d = 0; d < setup_.dimension; ++d) {
+        out.put(setup_.cells[d]);
+        out.put(setup_.lower[d]);
+        out.put(setup_.upper[d]);
+    }
+    return out.bytes();
+}
+
 std::string Simulation::serialise() const {
     ByteWriter out;
+    out.put_text(frame());
     out.put(step_);
     for (const double value : {time_, dt_, next_dt_, square_sum_, first_square_sum_, wall_energy_})
         out.put(value);
@@ -107,15 +120,16 @@ std::string Simulation::serialise() const {
 
 void Simulation::restore(const std::string& bytes) {
     ByteReader in(bytes);
+    const auto belongs = [&](bool condition) {
+        if (!condition) fail(Exit::io, "the state belongs to another scene");
+    };
+    belongs(in.get_text() == frame());
     step_ = in.get<std::int64_t>();
     for (double* value : {&time_, &dt_, &next_dt_, &square_sum_, &first_square_sum_, &wall_energy_})
         *value = in.get<double>();
     for (std::int64_t* value :
          {&counts_.candidates, &counts_.collisions, &counts_.violations, &counts_.stuck})
         *value = in.get<std::int64_t>();
-    const auto belongs = [&](bool condition) {
-        if (!condition) fail(Exit::io, "the state belongs to another scene");
-    };
     belongs(in.get<std::uint64_t>() == tiles_.size());
     std::size_t total = 0;
     for (Tile& tile : tiles_) {

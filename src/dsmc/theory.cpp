@@ -33,10 +33,11 @@ public:
     }
     // d ln T/dt.
     [[nodiscard]] double rate(double temperature) const {
-        const double variance = temperature / setup_.mass;
-        const double zeta = scales_.collision_rate * std::sqrt(variance) / setup_.dimension *
-                            loss(setup_.restitution, variance) * sonine_;
-        return setup_.kicks / variance - zeta;
+        return heating(temperature) - cooling(temperature);
+    }
+    // How fast T comes to a steady state, at most about.
+    [[nodiscard]] double relaxation(double temperature) const {
+        return heating(temperature) + cooling(temperature);
     }
     // ln T after dt.
     [[nodiscard]] double advance(double log, double dt) const { // Runge and Kutta
@@ -46,6 +47,15 @@ public:
     }
 
 private:
+    [[nodiscard]] double heating(double temperature) const {
+        return setup_.kicks / (temperature / setup_.mass);
+    }
+    [[nodiscard]] double cooling(double temperature) const {
+        const double variance = temperature / setup_.mass;
+        return scales_.collision_rate * std::sqrt(variance) / setup_.dimension *
+               loss(setup_.restitution, variance) * sonine_;
+    }
+
     const Setup& setup_;
     Scales scales_;
     double sonine_ = 1;
@@ -55,9 +65,10 @@ private:
 template <class Look> void follow(const Cooling& cooling, double temperature, double end, const Look& look) {
     double t = 0, log = std::log(temperature);
     while (t < end) {
-        const double rate = std::abs(cooling.rate(std::exp(log)));
-        // A small part of the time in which T changes; far from a steady state that grows with t.
-        double dt = rate > 0 ? 0.05 / rate : end;
+        const double now = std::exp(log), rate = std::abs(cooling.rate(now));
+        // A small part of the time in which T changes, which grows with t; near a steady state of that in
+        // which it would return.
+        double dt = rate > 0 ? std::min(0.05 / rate, 0.1 / cooling.relaxation(now)) : end;
         if (dt > end - t) dt = end - t;
         log = cooling.advance(log, dt);
         t = t + dt >= end ? end : t + dt;

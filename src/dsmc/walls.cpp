@@ -217,7 +217,7 @@ void fly_to_walls(const GasFlightView& view, double* place, double* velocity, do
     }
     if (left > 0) advance(view, p, left);
     fallen = height() - start;
-    if (met) result.wall_energy += kinetic(p, walls) - before - fallen;
+    if (met) result.wall_energy[second ? 1 : 0] += kinetic(p, walls) - before - fallen;
     settle(view, p, now + left);
 }
 

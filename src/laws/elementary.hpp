@@ -49,11 +49,12 @@ template <class R> SANDLANE_INLINE R exponential(const R& x) {
     return sum * power_of_two(n);
 }
 
-// x^p for x >= 0 and p > 0, with the logarithm of the result below 700.
+// x^p for x >= 0 and p > 0, with the logarithm of the result below 700; zero where it is below -700.
 template <class R> SANDLANE_INLINE R power(const R& x, const R& p) {
     constexpr double least = 2.2250738585072014e-308; // the smallest normal number
-    const R result = exponential(p * logarithm(max(x, R(least))));
-    return select(x > R(least), result, R(0.0));
+    const R exponent = p * logarithm(max(x, R(least)));
+    const R result = exponential(max(exponent, R(-700.0)));
+    return select(exponent > R(-700.0), select(x > R(least), result, R(0.0)), R(0.0));
 }
 
 // Sine and cosine of 2 pi u for u in [0, 1).

@@ -200,7 +200,7 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
              0.1 * needs.radius_min / scene.md.max_speed);
     if (scene.md.adaptive_dt) { // dt times 1/4, 1/3, 1/2, 2/3, 1, 4/3, 2 and 4
         plan.least_stride = 3;
-        plan.stride = 12;
+        plan.stride = plan.base_stride = 12;
         plan.largest_stride = 48;
     }
     plan.tick = plan.dt / static_cast<double>(plan.stride);
@@ -216,6 +216,8 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
                                                         plan.threads, threads_reason));
     plan.freeze =
         scene.md.freeze && plan.neighbours == NeighbourMethod::verlet && scene.domain.shear_rate == 0;
+    if (scene.md.freeze && !plan.freeze)
+        plan.chosen.emplace_back("tiles at rest: not stepped over, md.freeze needs lists and no shear flow");
     if (scene.md.adaptive_dt)
         plan.chosen.push_back(fmt::format("time step: from {:.3g} to {:.3g} s, chosen every 256 steps or so "
                                           "from the stiffest contact and the fastest grain; steps are "

@@ -21,7 +21,7 @@ struct Needs {
     double radius_min = 0, radius_max = 0; // m
     double mass_min = 0, mass_max = 0;     // kg
     bool many_radii = false, many_materials = false, friction = false;
-    bool memory = false; // contacts of the tangential law remember
+    bool memory = false; // contacts remember
     laws::Couples couples =
         laws::Couples::none;      // rolling friction, or lever arms to the plane of the contact
     std::vector<SizeClass> sizes; // of radii, from the smallest up
@@ -55,7 +55,7 @@ struct Plan {
     // Time is a number of steps times tick. The time step is dt = stride tick; stride is 1 but where the step
     // adapts: there it is a divisor of largest_stride, so that all steps meet at multiples of that.
     double tick = 0, dt = 0; // s
-    std::int64_t steps = 0, stride = 1, least_stride = 1, largest_stride = 1;
+    std::int64_t steps = 0, stride = 1, base_stride = 1, least_stride = 1, largest_stride = 1;
     Vec lower, upper;
     // Lattice geometry (docs/physics.md 10).
     int reach = 2;
@@ -82,6 +82,11 @@ struct Plan {
 // Laws whose contacts hold a spring.
 [[nodiscard]] constexpr bool has_spring(scene::TangentialLaw law) {
     return law == scene::TangentialLaw::cundall_strack || law == scene::TangentialLaw::walton_braun;
+}
+
+// What md.dt says or derive() recommends, s; where the step adapts, it does so about this.
+[[nodiscard]] constexpr double base_time_step(const Plan& plan) {
+    return plan.tick * static_cast<double>(plan.base_stride);
 }
 
 [[nodiscard]] constexpr bool turns(const Plan& plan) {

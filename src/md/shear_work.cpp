@@ -27,7 +27,7 @@ double Simulation::seam_power(std::size_t tile) {
     view.dt = 0;
     const double seam_speed = scene_.domain.shear_rate * (plan_.upper.y - plan_.lower.y);
     const std::size_t row = static_cast<std::size_t>(simd::memory_row(plan_.memory));
-    std::vector<double> force((tile_size + block_width) * state_.force_stride(), 0.0);
+    Column<double>& force = accumulators_.front(); // zeros between steps
     double power = 0;
     for (std::int32_t n = 0; n < all.count; ++n) {
         std::int32_t i[block_width], j[block_width];
@@ -45,7 +45,7 @@ double Simulation::seam_power(std::size_t tile) {
         const simd::TileList one{i, j, 1, all.begin, all.end, simd::Images::sheared, memory, &touched};
         (void)kernel(view, one, force.data(), 0.0);
         double* on_i = force.data() + static_cast<std::size_t>(*i - all.begin) * state_.force_stride();
-        power -= std::copysign(seam_speed, dy) * on_i[0];
+        power -= (dy > 0 ? seam_speed : -seam_speed) * on_i[0];
         // Whatever the kernel wrote is taken back: the rows of both grains, or the one behind the last.
         std::fill_n(on_i, state_.force_stride(), 0.0);
         const std::int32_t partner = *j < all.end ? *j - all.begin : static_cast<std::int32_t>(tile_size);

@@ -197,10 +197,11 @@ double Simulation::largest_overlap() const {
 // What is known of tiles at rest holds for the lists that it was seen with.
 void Simulation::watch_still_tiles() {
     const std::int64_t builds = lists_.builds() + walls_.builds();
-    if (builds != still_builds_) still_.reset(state_.tiles());
-    for (std::size_t tile = 0; tile < state_.tiles() && lists_.refreshes() != still_refreshes_; ++tile)
-        if (builds == still_builds_ && still_.at_rest(tile))
-            still_.see_partners(tile, lists_.tile(tile, state_));
+    if (builds != still_builds_)
+        still_.reset(state_.tiles());
+    else if (lists_.refreshes() != still_refreshes_)
+        for (std::size_t tile = 0; tile < state_.tiles(); ++tile)
+            still_.see_list(tile, lists_.tile(tile, state_));
     still_builds_ = builds;
     still_refreshes_ = lists_.refreshes();
 }
@@ -235,7 +236,7 @@ void Simulation::check_motion() {
             "{:.3g} m. The time step is too large for this flow, or the run has become unstable; lower md.dt "
             "below {:.3g} s.",
             step_, time(), largest_speed_, largest_speed_ * plan_.dt, 0.1 * needs_.radius_min,
-            0.1 * needs_.radius_min / largest_speed_);
+            0.1 * needs_.radius_min / largest_speed_ * base_time_step(plan_) / plan_.dt);
     // The factor covers what a contact changes of the speed within the step.
     walls_.account(1.25 * plan_.dt * (largest_speed_ + walls_.fastest()));
     const double seam_speed = std::abs(scene_.domain.shear_rate) * (plan_.upper.y - plan_.lower.y);

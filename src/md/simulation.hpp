@@ -70,7 +70,7 @@ public:
         return initial_energy_ + added_energy_ + wall_work_ + shear_work_ - now.energy();
     }
 
-    // Tiles of grains at rest that the last step went over; see md.freeze.
+    // Tiles of grains at rest that the next step goes over, as things stand; see md.freeze.
     [[nodiscard]] std::size_t still_tiles() const { return plan_.freeze ? still_.skipped() : 0; }
     [[nodiscard]] std::int64_t removed() const { return removed_; }
     [[nodiscard]] std::int64_t delayed() const { return delayed_; }

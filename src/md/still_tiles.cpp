@@ -47,6 +47,12 @@ void StillTiles::see_partners(std::size_t tile, const simd::TileList& list) {
     t.known = true;
 }
 
+// Tiles that move look at their partners when they come to rest.
+void StillTiles::see_list(std::size_t tile, const simd::TileList& list) {
+    tiles_[tile].known = false;
+    if (at_rest(tile)) see_partners(tile, list);
+}
+
 bool StillTiles::can_skip(std::size_t tile) const {
     if (still_[tile] == 0) return false;
     const auto rests = [&](std::uint32_t partner) { return resting_[partner] != 0; };

@@ -15,8 +15,8 @@ class StillTiles {
 public:
     // Nothing is known any more: the records were written elsewhere, or storage order or lists are new.
     void reset(std::size_t tiles);
-    // From the partners in the list of a tile, after reset.
-    void see_partners(std::size_t tile, const simd::TileList& list);
+    // The list of a tile is new.
+    void see_list(std::size_t tile, const simd::TileList& list);
 
     // Whether the step would change nothing in the tile: neither did the last one, nor did it change its
     // partners.
@@ -27,13 +27,15 @@ public:
                 const std::vector<double>& wall_memory);
     void after(std::size_t tile, const State& state, const simd::TileList& list, int memory_row,
                const std::vector<double>& wall_memory, bool moving_walls);
-    // Tiles of the step before whose records stay: those that are worth a look at the rest of their state.
+    // Tiles whose records the step before left: those that are worth a look at the rest of their state.
     [[nodiscard]] bool at_rest(std::size_t tile) const { return resting_[tile] != 0; }
     // The step is over.
     void advance();
-    [[nodiscard]] std::size_t skipped() const; // in the last step
+    [[nodiscard]] std::size_t skipped() const; // by the next step, as things stand
 
 private:
+    void see_partners(std::size_t tile, const simd::TileList& list);
+
     struct Tile {
         std::vector<std::uint32_t> partners; // other tiles
         bool known = false;                  // partners

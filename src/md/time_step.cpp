@@ -26,17 +26,22 @@ void Simulation::set_stride(std::int64_t stride) {
 }
 
 // What the stiffest of the present contacts needs, and what one that begins may need until the next choice:
-// of two of the lightest grains there are, one of them as fast as any, the other at rest.
+// of two of the lightest grains that are there or come, one of them as fast as any, the other at rest.
 double Simulation::wanted_time_step() const {
-    if (state_.size() == 0) return std::numeric_limits<double>::infinity();
     double wanted = std::numeric_limits<double>::infinity(), fastest = 0;
     Needs present = needs_;
     present.radius_min = present.mass_min = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < state_.size(); ++i) {
-        fastest = std::max(fastest, norm(state_.shift(i)) / plan_.dt);
-        present.radius_min = std::min(present.radius_min, state_.radius(i));
-        present.mass_min = std::min(present.mass_min, state_.mass[i]);
-    }
+    const auto count_in = [&](double speed, double radius, double mass) {
+        fastest = std::max(fastest, speed);
+        present.radius_min = std::min(present.radius_min, radius);
+        present.mass_min = std::min(present.mass_min, mass);
+    };
+    for (std::size_t i = 0; i < state_.size(); ++i)
+        count_in(norm(state_.shift(i)) / plan_.dt, state_.radius(i), state_.mass[i]);
+    const std::int64_t until = step_ + (sort_interval + 1) * plan_.largest_stride;
+    for (std::size_t n = next_waiting_; n < waiting_.size() && insertion_step(waiting_[n]) <= until; ++n)
+        count_in(norm(with_shear_flow(waiting_[n]).velocity), waiting_[n].radius, waiting_[n].mass);
+    if (present.radius_min > needs_.radius_max) return wanted; // no grain at all
     const auto table = [&](int a, int b) {
         const std::size_t materials = scene_.materials.size();
         const std::size_t pair = static_cast<std::size_t>(a) * materials + static_cast<std::size_t>(b);
@@ -64,7 +69,9 @@ double Simulation::wanted_time_step() const {
     contacts.materials = scene_.materials;
     contacts.pairs = scene_.pairs;
     contacts.md = scene_.md;
-    const double falling = norm(scene_.domain.gravity) * static_cast<double>(sort_interval + 1) * plan_.dt;
+    const Vec& g = scene_.domain.gravity; // of a plane, z is an angular acceleration
+    const double falling =
+        norm(plan_.dimension == 3 ? g : Vec{g.x, g.y, 0}) * static_cast<double>(until - step_) * plan_.tick;
     const double meeting = fastest + falling + walls.fastest();
     contacts.md.max_speed = std::max(meeting, 1e-6 * scene_.md.max_speed);
     wanted = std::min(wanted, derive(contacts, present).recommended_dt);

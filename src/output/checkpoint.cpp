@@ -12,7 +12,7 @@ namespace sandlane::output {
 namespace {
 
 constexpr std::string_view magic = "SANDLANE";
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 constexpr std::size_t header_size = magic.size() + sizeof(std::uint32_t) + 3 * sizeof(std::uint64_t);
 
 Checkpoint read_content(std::string_view content) {

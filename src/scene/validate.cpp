@@ -144,6 +144,7 @@ struct Validator {
                 "{}: a stiffness of 0 is no contact law; allowed: above 0, or negative for the mixing rule",
                 path);
         check_cohesion(pair.cohesion, path);
+        check_rolling_spring(pair.rolling_stiffness, path);
         const bool overrides = pair.stiffness > 0 || pair.unloading_stiffness >= 0;
         if (scene.md.normal == NormalLaw::walton_braun && overrides &&
             !(pair.stiffness > 0 && pair.unloading_stiffness >= pair.stiffness))
@@ -161,15 +162,19 @@ struct Validator {
                 path, cohesion, normal_choices()[static_cast<std::size_t>(scene.md.normal)]);
     }
 
+    void check_rolling_spring(double stiffness, const std::string& path) const {
+        if (stiffness > 0 && !has_springs())
+            reject("{}.rolling_stiffness: {} needs friction with a spring, too, else the grains creep: "
+                   "md.tangential = \"cundall-strack\" or \"walton-braun\"; or leave it out",
+                   path, stiffness);
+    }
+
     void check_rolling(const Material& m, std::size_t n) const {
         if ((m.rolling_friction > 0) != (m.rolling_damping > 0 || m.rolling_stiffness > 0))
             reject("materials[{}]: rolling friction needs rolling_friction ({}) above 0, and rolling_damping "
                    "({}) or rolling_stiffness ({})",
                    n, m.rolling_friction, m.rolling_damping, m.rolling_stiffness);
-        if (m.rolling_stiffness > 0 && !has_springs())
-            reject("materials[{}].rolling_stiffness: {} needs friction with a spring, too, else the grains "
-                   "creep: md.tangential = \"cundall-strack\" or \"walton-braun\"; or leave it out",
-                   n, m.rolling_stiffness);
+        check_rolling_spring(m.rolling_stiffness, fmt::format("materials[{}]", n));
         if (m.rolling_friction > 0 && scene.md.tangential == TangentialLaw::none)
             reject("materials[{}].rolling_friction: {} has no effect with md.tangential = \"none\"; choose "
                    "\"haff-werner\" or \"cundall-strack\", or leave it out",

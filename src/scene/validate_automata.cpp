@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include <algorithm>
+
 namespace sandlane::scene {
 
 namespace {
@@ -68,6 +70,9 @@ void validate_sandpile(const Scene& scene, const std::string& file) {
     if (s.start != PileStart::uniform && (s.height != 0 || s.centre != 0 || s.drive != PileDrive::none))
         fail(Exit::invalid_input,
              "{}: sandpile.start: an identity knows its heights; leave out height, centre and drive", file);
+    if (s.start != PileStart::uniform && std::max(s.columns, s.rows) > 100000)
+        fail(Exit::invalid_input,
+             "{}: sandpile.columns, rows: an identity has at most 100000 sites on a side", file);
     if (s.drive != PileDrive::none && s.height + s.centre > 255)
         fail(Exit::invalid_input,
              "{}: sandpile.centre: {} grains on {}; allowed on a driven pile: 255 together", file, s.centre,
@@ -84,10 +89,19 @@ void validate_heap(const Scene& scene, const std::string& file) {
         fail(Exit::invalid_input, "{}: heap.columns: {} is out of range; allowed: 2 or more", file,
              scene.heap.columns);
     check_size(scene.heap.columns, scene.heap.heaps, file, "heap");
+    if (scene.heap.steps > 1900000000)
+        fail(Exit::invalid_input, "{}: heap.steps: {} is out of range; allowed: up to 1.9e9", file,
+             scene.heap.steps);
 }
 
 void validate_ripples(const Scene& scene, const std::string& file) {
-    check_size(scene.ripples.columns, scene.ripples.rows, file, "ripples");
+    const Ripples& r = scene.ripples;
+    check_size(r.columns, r.rows, file, "ripples");
+    // All sand of a row on one site must stay within the numbers of the kernels.
+    if (r.transport * static_cast<double>(r.columns) > 262144)
+        fail(Exit::invalid_input,
+             "{}: ripples.transport: {} on {} columns; allowed: up to 262144 together, {:.4g} on so many",
+             file, r.transport, r.columns, 262144 / static_cast<double>(r.columns));
 }
 
 } // namespace sandlane::scene

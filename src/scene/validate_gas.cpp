@@ -80,6 +80,17 @@ struct GasValidator {
         if (side.kind == SideKind::reflecting && side.temperature > 0)
             reject("sides[{}].temperature = {}: a reflecting wall has none; write kind = \"heated\"", n,
                    side.temperature);
+        const auto unused = [&](bool given, const char* key, const char* why) {
+            if (given) reject("sides[{}].{}: has no effect here, {}; leave it out", n, key, why);
+        };
+        const bool heated = side.kind == SideKind::heated, smooth = scene.gas.tangential_restitution == 1;
+        unused(heated && side.restitution != 1, "restitution", "the wall is heated");
+        unused(heated && side.tangential_restitution != 1, "tangential_restitution", "the wall is heated");
+        unused(!heated && side.accommodation != 1, "accommodation", "the wall is not heated");
+        unused(!heated && smooth && side.tangential_restitution != 1, "tangential_restitution",
+               "the particles are smooth");
+        unused(!heated && smooth && norm(side.velocity) > 0, "velocity",
+               "a reflecting wall does not drag smooth particles");
         const AxisOfSpace& direction = space_axes[axis];
         if (side.velocity.*direction.component != 0)
             reject("sides[{}].velocity: its {} component must be 0; a wall moves along itself", n,

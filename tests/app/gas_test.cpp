@@ -62,6 +62,16 @@ TEST_F(Gas, RunsAndLeavesItsFiles) {
     EXPECT_EQ(json_of(read("again/summary.json"))["state_hash"], summary["state_hash"]);
 }
 
+// A gas that walls heat takes ever shorter steps, many more than were expected, and ends at its time.
+TEST_F(Gas, AdaptiveRunsEndAtTheirTime) {
+    write("gas.toml", gas_scene);
+    run_well({"run", "gas.toml", "--quiet", "--set", "gas.temperature=1e-4", "--set", "gas.particles=400",
+              "--set", "dsmc.adaptive=true", "--set", "output.report=false"});
+    const std::string log = read("results/gas/log.csv");
+    const std::string last = log.substr(log.rfind('\n', log.size() - 2) + 1);
+    EXPECT_NEAR(std::stod(last), 20, 0.1); // the longest step
+}
+
 TEST_F(Gas, PicturesAndTrajectoriesOnDemand) {
     write("gas.toml", gas_scene);
     run_well({"run", "gas.toml", "--quiet", "--set", "output.picture_every=10", "--set",
@@ -160,6 +170,11 @@ TEST_F(Gas, RefusesTheCheckpointOfAnotherScene) {
         {"run", "--resume", latest_checkpoint("results/gas"), "--out", "new", "--set", "gas.particles=50"});
     EXPECT_EQ(o.code, code_of(Exit::io)) << o.err;
     EXPECT_SAYS(o.err, "another scene");
+    for (const char* key : {"dsmc.dt=0.05", "dsmc.cells=[4, 8, 16]", "domain.upper=[8, 8, 9]"})
+        EXPECT_EQ(
+            run({"run", "--resume", latest_checkpoint("results/gas"), "--out", "new", "--set", key}).code,
+            code_of(Exit::io))
+            << key;
 }
 
 // Collisions without end: an error in words, with the last checkpoint.

@@ -260,6 +260,10 @@ TEST_F(Refusals, ContactLaws) {
     EXPECT_SAYS(refused({"md.tangential=haff-werner", "materials.0.rolling_friction=0.1",
                          "materials.0.rolling_stiffness=0.1"}),
                 "materials[0].rolling_stiffness: 0.1 needs friction with a spring, too");
+    EXPECT_SAYS(refused({"md.tangential=haff-werner",
+                         "pairs=[{ first = \"glass\", second = \"glass\", rolling_friction = 0.1, "
+                         "rolling_stiffness = 0.1 }]"}),
+                "pairs[0].rolling_stiffness: 0.1 needs friction with a spring, too");
     EXPECT_SAYS(refused({"md.tangential=none", "materials.0.rolling_friction=0.1",
                          "materials.0.rolling_damping=1e-6"}),
                 "materials[0].rolling_friction: 0.1 has no effect with md.tangential = \"none\"");

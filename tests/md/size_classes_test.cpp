@@ -57,21 +57,24 @@ struct Mixture {
     std::vector<scene::GrainState> grains;
 };
 
-// Large grains of radius about 1 apart from each other, some of a tenth, and small ones of a hundredth: half
-// of them anywhere, half on the surface of the large ones. Overlaps are below 0.4 of the smallest radius.
+// Large grains of radius about 1 apart from each other, some of a half and of a tenth, and small ones of a
+// hundredth: half of them anywhere, half on the surface of the large ones. Overlaps are below 0.4 of the
+// smallest radius.
 class Maker {
 public:
-    Maker(int dimension, Sides sides) : dimension_(dimension) {
+    Maker(int dimension, Sides sides)
+        : dimension_(dimension), size_(sides == Sides::periodic ? Vec{3.75, 9, 4.3} : Vec{4.3, 4.3, 4.3}) {
         scene::Scene& s = mixture.scene;
         s = dimension == 3 ? test::space_scene(6) : test::lattice_scene();
         s.domain.lower = {0, 0, 0};
-        s.domain.upper = {edge, edge, dimension == 3 ? edge : 0.0};
+        s.domain.upper = {size_.x, size_.y, dimension == 3 ? size_.z : 0.0};
         const bool periodic = sides != Sides::open;
         s.domain.periodic = {periodic, periodic, periodic && dimension == 3};
         if (sides == Sides::sheared) s.domain.shear_rate = 0.7;
         s.domain.outside = scene::Outside::error;
         s.md.dt = 1e-6;
         for (int n = 0; n < 3; ++n) place(0.8 + 0.05 * n);
+        for (int n = 0; n < 6; ++n) place(0.40 + 0.01 * n);
         for (int n = 0; n < 12; ++n) place(0.08 + 0.005 * n);
         for (int n = 0; n < 500; ++n) place(0.01 + 0.00001 * n);
         for (int n = 0; n < 500; ++n) place_on(static_cast<std::size_t>(n % 15), 0.01 + 0.00001 * n);
@@ -79,8 +82,6 @@ public:
     Mixture mixture;
 
 private:
-    static constexpr double edge = 4.3;
-
     double uniform() { return random_.uniform(counter_++); }
     bool fits(Vec p, double radius) const {
         const scene::Box box(mixture.scene.domain);
@@ -99,10 +100,11 @@ private:
     }
     void place(double radius) {
         const bool open = !mixture.scene.domain.periodic[0];
-        const double margin = open ? radius : 0.0, room = edge - 2 * margin;
+        const double margin = open ? radius : 0.0;
+        const auto anywhere = [&](double length) { return margin + (length - 2 * margin) * uniform(); };
         for (int attempt = 0; attempt < 100000; ++attempt) {
-            Vec p{margin + room * uniform(), margin + room * uniform(), 0};
-            if (dimension_ == 3) p.z = margin + room * uniform();
+            Vec p{anywhere(size_.x), anywhere(size_.y), 0};
+            if (dimension_ == 3) p.z = anywhere(size_.z);
             if (fits(p, radius)) return add(p, radius);
         }
     }
@@ -113,13 +115,15 @@ private:
             Vec p = on.position + ((on.radius + radius * (0.8 + 0.4 * uniform())) / norm(way)) * way;
             const scene::Box box(mixture.scene.domain);
             p = box.wrapped(p);
-            const auto inside = [](double x) { return x > 0 && x < edge; };
-            if (!inside(p.x) || !inside(p.y) || (dimension_ == 3 && !inside(p.z))) continue;
+            const auto inside = [](double x, double length) { return x > 0 && x < length; };
+            if (!inside(p.x, size_.x) || !inside(p.y, size_.y) || (dimension_ == 3 && !inside(p.z, size_.z)))
+                continue;
             if (fits(p, radius)) return add(p, radius);
         }
     }
 
     int dimension_;
+    Vec size_; // a periodic box so narrow that large grains see all columns
     Random random_{1, Stream::position};
     std::uint64_t counter_ = 0;
 };

@@ -65,6 +65,26 @@ TEST(AdaptiveTimeStep, FreeFallIsExactWhateverTheStep) {
     EXPECT_LT(sim.taken(), sim.step());
 }
 
+// Grains that are still to come have a say: 0.05 R/v of one that arrives fast in an empty domain.
+TEST(AdaptiveTimeStep, ExpectsWhoArrives) {
+    scene::Scene s = empty_scene();
+    s.materials[0].stiffness = 100;
+    s.materials[0].friction = 0;
+    s.md.adaptive_dt = true;
+    s.md.dt = 2e-5;
+    s.md.duration = 1;
+    scene::GrainState late = grain(0, {0.5, 0.5, 0}, {10, 0, 0}, 0.01, 1, 0);
+    late.insert_at = 0.1;
+    md::Simulation sim = simulate(s, {late});
+    double longest = 0;
+    while (sim.state().size() == 0) {
+        longest = std::max(longest, sim.plan().dt);
+        sim.run(48);
+    }
+    EXPECT_DOUBLE_EQ(longest, 8e-5);
+    EXPECT_LE(sim.plan().dt, 5e-5);
+}
+
 // By hand: t_c/50 of the overlap at rest of a heavy grain, and of what the light one may do next.
 TEST(AdaptiveTimeStep, FollowsTheStiffestContact) {
     scene::Scene s = empty_scene();

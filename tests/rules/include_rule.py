@@ -31,6 +31,7 @@ private = [
     (r"xsimd/|(\w*intrin|arm_neon|arm_sve)\.h$", lambda path: path.startswith("simd/")),
     (r"omp\.h$", lambda path: path == "src/core/parallel.hpp"),
     (r"toml\+\+", lambda path: path.startswith("src/scene/")),
+    (r"(unsupported/)?Eigen/", lambda path: path.startswith("src/rigid/") or path == "src/automata/spectrum.cpp"),
     (r"CLI/", lambda path: path.startswith("src/app/")),
 ]
 include = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]')
@@ -48,7 +49,7 @@ def target_of(name):
     """The layer that an include with quotes names."""
     if re.fullmatch(r"simd/(\w+/)?tables\.hpp", name):
         return "door"
-    if name.startswith("simd/"):
+    if name.startswith("simd/") or name == "isas.def":
         return "simd"
     return name.split("/")[0]
 

@@ -154,7 +154,9 @@ template <int dimension, bool rough> GasCollisions all_cells(const GasCollisionV
         cell.majorant = view.margin * std::sqrt(dot(extent, extent));
         if (view.packing > 0) cell.rate *= laws::contact_correlation(dimension, view.packing * cell.n);
         if (!(cell.majorant > 0)) continue;
-        if (!(2 * cell.rate * cell.n * (cell.n - 1) * cell.majorant < most_candidates)) {
+        const double pairs = 0.5 * cell.n * (cell.n - 1.0);
+        if (!(4 * cell.rate * pairs * cell.majorant < most_candidates) ||
+            (view.scheme == GasScheme::bernoulli && !(pairs < most_candidates))) {
             ++result.overflows;
             continue;
         }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sandlane::simd::reference {
 
@@ -37,7 +38,8 @@ void step_value(double* gear, double& value, double& shift, double acceleration,
 }
 
 template <int dimension>
-void settle(const MotionView& view, std::int64_t i, double bend, double* record, MotionResult& result) {
+void settle(const MotionView& view, std::int64_t i, double bend, double* record, double& gain,
+            MotionResult& result) {
     bool inside = true;
     double shift2 = 0;
     for (int d = dimension - 1; d >= 0; --d) { // y before x, which a seam may change
@@ -51,7 +53,7 @@ void settle(const MotionView& view, std::int64_t i, double bend, double* record,
         record[0] -= crossed * view.seam;
         record[dimension] -= crossed * view.seam_shift;
         const double jump = record[dimension] - old; // at the velocity in the middle of the step
-        result.seam_gain += (old - bend + 0.5 * jump) * jump / view.inverse_mass[i];
+        gain += (old - bend + 0.5 * jump) * jump / view.inverse_mass[i];
     }
     for (int d = 0; d < dimension; ++d) {
         inside = inside && record[d] >= view.lower[d] && record[d] < view.upper[d];
@@ -67,6 +69,7 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
     constexpr bool turns = rotation != Rotation::none, couples = rotation == Rotation::couples;
     constexpr int dofs = degrees_of_freedom(dimension, turns), fields = force_stride(dimension, rotation);
     MotionResult result;
+    double gain = 0; // by eights, as kernels add
     for (std::int64_t i = begin; i < end; ++i) {
         double* gear = view.gear + (i - i % 8) * dofs * (order - 2) + i % 8;
         const auto step = [&](int dof, double& value, double& shift, double acceleration) {
@@ -97,9 +100,11 @@ MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t 
                      torque(4 + d, 8 + d) * (of_torque * record[Fields::inverse_radius]));
             }
         }
-        if (do_predict) settle<dimension>(view, i, *gear, record, result);
+        if (i % 8 == 0) result.seam_gain += std::exchange(gain, 0.0);
+        if (do_predict) settle<dimension>(view, i, *gear, record, gain, result);
         std::copy_n(record, record_fields, view.new_records + i * record_fields);
     }
+    result.seam_gain += gain;
     return result;
 }
 
