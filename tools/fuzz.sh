@@ -8,5 +8,5 @@ mkdir -p "$found"
 arguments=("$found")
 if [ -d "$kept" ]; then arguments+=("$kept"); fi
 if [ -f "tests/fuzz/$name.dict" ]; then arguments+=("-dict=tests/fuzz/$name.dict"); fi
-OMP_NUM_THREADS=1 exec "$1" -max_total_time=15 -timeout=10 -print_final_stats=1 \
+OMP_NUM_THREADS=1 exec "$1" -max_total_time=10 -timeout=10 -print_final_stats=1 \
     -artifact_prefix="build/fuzz/crashes/$name-" "${arguments[@]}"
