@@ -85,6 +85,25 @@ struct Tally {
     }
 };
 
+// Looks for infinitely many collisions in a finite time: a thousand events for each particle within 1e-9 of the
+// mean time between two of a particle so far.
+class CollapseGuard {
+public:
+    // At the end of an epoch: `time` on the clock, events so far. True: this is a collapse.
+    [[nodiscard]] bool sees(double time, std::int64_t events, std::size_t particles) {
+        if (events - events_ < 1000 * static_cast<std::int64_t>(particles)) return false;
+        const double mean = time * static_cast<double>(particles) / (2 * static_cast<double>(events));
+        const bool collapsed = time - time_ < 1e-9 * mean;
+        time_ = time;
+        events_ = events;
+        return collapsed;
+    }
+
+private:
+    double time_ = 0; // where the present thousand began
+    std::int64_t events_ = 0;
+};
+
 // What the improved algorithm did for it.
 struct Work {
     std::int64_t crossings = 0, searches = 0, stale = 0, epochs = 0;

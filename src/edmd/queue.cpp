@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace sandlane::edmd {
 
 namespace {
 
-const double per_bucket = std::getenv("PB") ? atof(std::getenv("PB")) : 3; // entries, about
+constexpr double per_bucket = 3; // entries, about
 
 double key_of(const simd::HardEvents& e) {
     return e.first_time < e.crossing_time ? e.first_time : e.crossing_time;

@@ -14,6 +14,12 @@ double Setup::largest_radius() const {
     return largest;
 }
 
+double Setup::smallest_radius() const {
+    double smallest = classes[0].radius;
+    for (const Class& c : classes) smallest = std::min(smallest, c.radius);
+    return smallest;
+}
+
 bool Setup::has_walls() const {
     for (int d = 0; d < dimension; ++d)
         if (!periodic[d]) return true;

@@ -48,6 +48,7 @@ struct Setup {
     [[nodiscard]] double length(int d) const { return upper[d] - lower[d]; }
     [[nodiscard]] double volume() const; // m^3, m^2 in the plane
     [[nodiscard]] double largest_radius() const;
+    [[nodiscard]] double smallest_radius() const;
     [[nodiscard]] bool falls() const { return gravity[0] != 0 || gravity[1] != 0 || gravity[2] != 0; }
     [[nodiscard]] bool has_walls() const;
     // One class of smooth particles, constant restitution, nothing else.

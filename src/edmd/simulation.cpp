@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace sandlane::edmd {
 
@@ -16,8 +15,15 @@ using simd::image_zero;
 using simd::never_meets;
 using simd::no_partner;
 
+namespace {
+
+// State of more than this is fetched ahead; below it costs more than it saves.
+constexpr std::size_t far_bytes = std::size_t{48} << 20;
+
+} // namespace
+
 Simulation::Simulation(Setup setup, const std::vector<Particle>& particles, simd::Isa isa, int threads)
-    : setup_(std::move(setup)), kernels_(&simd::edmd_kernels(isa)), threads_(threads),
+    : Algorithm(std::move(setup)), kernels_(&simd::edmd_kernels(isa)), threads_(threads),
       special_(!setup_.is_plain()) {
     const int space = setup_.dimension == 3 ? 1 : 0;
     search_near_ = special_ ? kernels_->general[space] : kernels_->plain[space];
@@ -30,7 +36,7 @@ Simulation::Simulation(Setup setup, const std::vector<Particle>& particles, simd
     place_particles(particles);
     sort_by_cell();
     set_epoch_end();
-    far_ = states_.size() > 5000 && std::getenv("NOFAR") == nullptr;
+    far_ = bytes() > far_bytes;
     dispatch_predict_all();
 }
 
@@ -54,6 +60,10 @@ void Simulation::choose_cells() {
         edge_[d] = setup_.length(d) / view_.count[d];
         cell_count_ *= view_.count[d];
     }
+    for (int d = 0; d < setup_.dimension; ++d)
+        if (setup_.periodic[d] && view_.count[d] < 3)
+            fail(Exit::invalid_input, "the box has {} cells in a periodic direction, fewer than three",
+                 view_.count[d]);
     cells_.resize(static_cast<std::size_t>(cell_count_));
     view_.radius = radius_.data();
     for (int d = 0; d < 3; ++d) view_.gravity[d] = setup_.gravity[d];
@@ -162,6 +172,7 @@ std::int64_t Simulation::run(std::int64_t events, double until) {
 void Simulation::begin_epoch() {
     setup_.dimension == 2 ? synchronise<2>() : synchronise<3>();
     clock_.begin_epoch();
+    check_course();
     now_ = 0;
     sort_by_cell();
     set_epoch_end();

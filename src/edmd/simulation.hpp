@@ -3,11 +3,8 @@
 #pragma once
 
 #include "core/column.hpp"
-#include "core/hash.hpp"
-#include "edmd/event_log.hpp"
-#include "edmd/physics.hpp"
+#include "edmd/algorithm.hpp"
 #include "edmd/queue.hpp"
-#include "edmd/setup.hpp"
 #include "simd/edmd/tables.hpp"
 
 #include <array>
@@ -19,43 +16,21 @@
 
 namespace sandlane::edmd {
 
-// Sums over all particles, in the order of their ids.
-struct Observables {
-    double temperature = 0;         // m <(v - u)^2>/d, J
-    std::vector<double> of_class;   // the same of each class
-    double spin_temperature = 0;    // J <w^2> per component, J; 0: smooth
-    double energy = 0;              // kinetic, of translation and spin, J
-    double fourth = 0;              // a2, of the thermal energies
-    std::array<double, 3> drift{};  // u of the centre of mass, m/s
-};
-[[nodiscard]] Observables observe(const Setup& setup, const std::vector<Particle>& particles);
-
-class Simulation {
+class Simulation final : public Algorithm {
 public:
     // Throws Error(invalid_input) for a box of fewer than three cells in a periodic direction.
     Simulation(Setup setup, const std::vector<Particle>& particles, simd::Isa isa, int threads);
 
-    // Takes so many events, collisions and hits of walls, but none later than `until` on the clock; returns
-    // how many. The clock stands at the last one, or at `until` if it was reached.
-    std::int64_t run(std::int64_t events, double until = std::numeric_limits<double>::infinity());
-
-    [[nodiscard]] double time() const { return clock_.time(); }
-    [[nodiscard]] const Setup& setup() const { return setup_; }
-    [[nodiscard]] std::size_t size() const { return states_.size(); }
-    [[nodiscard]] const Tally& tally() const { return tally_; }
-    [[nodiscard]] const EventLog& log() const { return log_; }
-    [[nodiscard]] EventLog& log() { return log_; }
+    std::int64_t run(std::int64_t events, double until = std::numeric_limits<double>::infinity()) override;
+    [[nodiscard]] std::size_t size() const override { return states_.size(); }
+    [[nodiscard]] std::size_t bytes() const override;
     [[nodiscard]] const Work& work() const { return work_; }
-    [[nodiscard]] std::size_t bytes() const;
-
-    // At the time of the clock, by id.
-    [[nodiscard]] std::vector<Particle> particles() const;
-    [[nodiscard]] Hash128 state_hash() const;
-    // Complete state for checkpoints; restore() needs a Simulation of the same particles and box.
-    [[nodiscard]] std::string serialise() const;
-    void restore(const std::string& bytes); // throws Error(io) for a state of something else
-    // Goes on with the kernels of another instruction set.
-    void use(simd::Isa isa);
+    [[nodiscard]] std::vector<RawState> raw_states() const override;
+    [[nodiscard]] std::string serialise() const override;
+    void restore(const std::string& bytes) override;
+    [[nodiscard]] std::array<std::int32_t, 3> cells() const {
+        return {view_.count[0], view_.count[1], view_.count[2]};
+    }
 
 private:
     template <int dimension, bool special> std::int64_t loop(std::int64_t events, double until);
@@ -90,14 +65,10 @@ private:
     void sort_by_cell();
     void set_epoch_end();
 
-    Setup setup_;
     const simd::EdmdKernels* kernels_;
     simd::HardSearchNear search_near_;
     int threads_;
     bool special_;
-    Clock clock_;
-    Tally tally_;
-    EventLog log_;
     Work work_;
     double now_ = 0; // of the epoch
 
@@ -113,8 +84,6 @@ private:
     std::vector<double> radius_;
     Queue queue_;
     bool far_ = false; // more than the cache next to a core holds: what comes up is fetched ahead
-    std::int64_t epoch_events_ = 0; // in this epoch
-    double epoch_end_ = 0;          // of this epoch at the latest
 };
 
 } // namespace sandlane::edmd

@@ -18,101 +18,25 @@ std::vector<std::uint32_t> Simulation::order_by_id() const {
     return at;
 }
 
-std::vector<Particle> Simulation::particles() const {
-    std::vector<Particle> all;
+std::vector<RawState> Simulation::raw_states() const {
+    std::vector<RawState> all;
     all.reserve(states_.size());
-    const Vector<double> gravity{setup_.gravity[0], setup_.gravity[1], setup_.gravity[2]};
     for (const std::uint32_t k : order_by_id()) {
         const HardState& s = states_[k];
-        laws::Flight<double> f{
-            {s.place[0], s.place[1], s.place[2]}, {s.velocity[0], s.velocity[1], s.velocity[2]}, s.time};
-        laws::fly<3, true>(f, clock_.now - s.time, gravity);
-        Particle p;
-        p.id = events_[k].id;
-        p.kind = static_cast<std::uint32_t>(s.word >> 48);
-        p.place = {f.place.x, f.place.y, f.place.z};
-        p.velocity = {f.velocity.x, f.velocity.y, f.velocity.z};
-        if (setup_.rough) p.spin = {spin_[k].x, spin_[k].y, spin_[k].z};
-        for (std::size_t d = 0; d < static_cast<std::size_t>(setup_.dimension); ++d) {
-            p.image[d] = turns_[3 * k + d];
-            const int axis = static_cast<int>(d);
-            if (!setup_.periodic[axis]) continue;
-            const double boxes = std::floor((p.place[d] - setup_.lower[axis]) / setup_.length(axis));
-            p.place[d] -= boxes * setup_.length(axis);
-            p.image[d] += static_cast<std::int64_t>(boxes);
-        }
-        all.push_back(p);
+        const HardEvents& e = events_[k];
+        RawState raw;
+        raw.place = {s.place[0], s.place[1], s.place[2]};
+        raw.velocity = {s.velocity[0], s.velocity[1], s.velocity[2]};
+        if (setup_.rough) raw.spin = {spin_[k].x, spin_[k].y, spin_[k].z};
+        raw.time = s.time;
+        raw.last_time = e.last_time;
+        for (std::size_t d = 0; d < 3; ++d) raw.boxes[d] = turns_[3 * k + d];
+        raw.last = simd::is_wall(e.last) ? simd::no_partner : events_[e.last].id;
+        raw.hits = e.hits;
+        raw.kind = static_cast<std::uint32_t>(s.word >> 48);
+        all.push_back(raw);
     }
     return all;
-}
-
-Observables observe(const Setup& setup, const std::vector<Particle>& particles) {
-    Observables o;
-    if (particles.empty()) return o;
-    const auto d = static_cast<std::size_t>(setup.dimension);
-    const auto n = static_cast<double>(particles.size());
-    double mass = 0;
-    o.of_class.assign(setup.classes.size(), 0);
-    std::vector<double> count(setup.classes.size());
-    for (const Particle& p : particles) {
-        const Class& c = setup.classes[p.kind];
-        mass += c.mass;
-        for (std::size_t k = 0; k < d; ++k) o.drift[k] += c.mass * p.velocity[k];
-    }
-    for (double& u : o.drift) u /= mass;
-    double square = 0, fourth = 0;
-    for (const Particle& p : particles) {
-        const Class& c = setup.classes[p.kind];
-        double thermal = 0;
-        for (std::size_t k = 0; k < d; ++k) {
-            const double v = p.velocity[k] - o.drift[k];
-            thermal += c.mass * v * v;
-            o.energy += 0.5 * c.mass * p.velocity[k] * p.velocity[k];
-        }
-        square += thermal;
-        fourth += thermal * thermal;
-        o.of_class[p.kind] += thermal / static_cast<double>(d);
-        ++count[p.kind];
-        const double moment = c.inertia * c.mass * c.radius * c.radius;
-        for (const double w : p.spin) o.spin_temperature += moment * w * w / (d == 3 ? 3 : 1) / n;
-        for (const double w : p.spin) o.energy += 0.5 * moment * w * w;
-    }
-    const auto dimension = static_cast<double>(d);
-    o.temperature = square / (n * dimension);
-    o.fourth = square > 0 ? fourth * n / (square * square) * dimension / (dimension + 2) - 1 : 0;
-    for (std::size_t k = 0; k < count.size(); ++k) o.of_class[k] /= std::max(count[k], 1.0);
-    return o;
-}
-
-namespace {
-
-// All that a state is, of one particle; numbers of others are ids.
-template <class Put>
-void describe_state(const HardState& s, const HardEvents& e, const Column<HardEvents>& events, const Put& put) {
-    put(e.id);
-    for (int d = 0; d < 3; ++d) {
-        put(s.place[d]);
-        put(s.velocity[d]);
-    }
-    put(s.time);
-    put(simd::is_wall(e.last) ? e.last : events[e.last].id);
-    put(e.last_time);
-    put(e.hits);
-}
-
-} // namespace
-
-Hash128 Simulation::state_hash() const {
-    ByteWriter out;
-    for (const std::uint32_t k : order_by_id()) {
-        describe_state(states_[k], events_[k], events_, [&](auto value) { out.put(value); });
-        for (std::size_t d = 0; d < 3; ++d) out.put(turns_[3 * k + d]);
-        if (setup_.rough) out.put(spin_[k].x), out.put(spin_[k].y), out.put(spin_[k].z);
-    }
-    out.put(clock_.epoch);
-    out.put(clock_.carry);
-    out.put(log_.hash());
-    return hash_bytes(out.bytes().data(), out.bytes().size());
 }
 
 // Everything that a state must share with the simulation that takes it up.
@@ -151,13 +75,8 @@ std::string Simulation::serialise() const {
     out.put_array(times.data(), times.size());
     out.put_array(turns_.data(), turns_.size());
     out.put_array(spin_.data(), spin_.size());
-    out.put_array(&clock_, 1);
-    out.put_array(&tally_, 1);
     out.put_array(&work_, 1);
-    out.put(log_.state());
-    out.put(log_.count());
-    out.put(epoch_events_);
-    out.put(epoch_end_);
+    put_course(out);
     return out.bytes();
 }
 
@@ -169,19 +88,16 @@ void Simulation::restore(const std::string& bytes) {
     std::vector<std::uint32_t> words;
     std::vector<double> times;
     std::vector<std::int32_t> turns;
-    std::vector<Clock> clock;
-    std::vector<Tally> tally;
     std::vector<Work> work;
     in.get_array(states);
     in.get_array(words);
     in.get_array(times);
     in.get_array(turns);
     in.get_array(spin_);
-    in.get_array(clock);
-    in.get_array(tally);
     in.get_array(work);
     if (states.size() != n || words.size() != 6 * n || times.size() != n || turns.size() != 3 * n ||
-        (setup_.rough && spin_.size() != n) || clock.size() != 1 || tally.size() != 1 || work.size() != 1)
+        (setup_.rough && spin_.size() != n)
+        || work.size() != 1)
         fail(Exit::io, "damaged state");
     std::vector<std::uint32_t> at(n, simd::no_partner);
     for (std::size_t k = 0; k < n; ++k) {
@@ -211,22 +127,11 @@ void Simulation::restore(const std::string& bytes) {
         if ((states_[k].word >> 48) >= setup_.classes.size()) fail(Exit::io, "damaged state");
         add_to_cell(cell_number(e.cell), static_cast<std::uint32_t>(k));
     }
-    clock_ = clock[0];
-    tally_ = tally[0];
     work_ = work[0];
-    const auto state = in.get<std::uint64_t>(), count = in.get<std::uint64_t>();
-    log_.restore(state, count);
-    epoch_events_ = in.get<std::int64_t>();
-    epoch_end_ = in.get<double>();
+    get_course(in);
     now_ = clock_.now;
     sort_by_cell();
     dispatch_predict_all();
-}
-
-void Simulation::use(simd::Isa isa) {
-    kernels_ = &simd::edmd_kernels(isa);
-    const int space = setup_.dimension == 3 ? 1 : 0;
-    search_near_ = special_ ? kernels_->general[space] : kernels_->plain[space];
 }
 
 } // namespace sandlane::edmd

@@ -1,5 +1,8 @@
 #include "edmd/reference/simple.hpp"
 
+#include "core/bytes.hpp"
+#include "core/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -29,7 +32,7 @@ double pair_time(const Setup& setup, const laws::Flight<double>& i, const laws::
 } // namespace
 
 SimpleAlgorithm::SimpleAlgorithm(Setup setup, const std::vector<Particle>& particles)
-    : setup_(std::move(setup)), states_(particles.size()) {
+    : Algorithm(std::move(setup)), states_(particles.size()) {
     for (const Particle& p : particles) {
         State& s = states_[p.id];
         s = {{{p.place[0], p.place[1], p.place[2]}, {p.velocity[0], p.velocity[1], p.velocity[2]}, 0},
@@ -182,6 +185,7 @@ void SimpleAlgorithm::begin_epoch() {
         square = std::max(square, dot(s.flight.velocity, s.flight.velocity));
     }
     clock_.begin_epoch();
+    check_course();
     epoch_end_ = longest_epoch(setup_, square);
     epoch_events_ = 0;
     for (std::size_t i = 0; i < states_.size(); ++i) predict(i);
@@ -210,21 +214,59 @@ std::int64_t SimpleAlgorithm::run(std::int64_t events, double until) {
     return done;
 }
 
-std::vector<Particle> SimpleAlgorithm::particles() const {
-    std::vector<Particle> all;
-    for (std::size_t n = 0; n < states_.size(); ++n) {
-        State s = states_[n];
-        fly(setup_, s.flight, clock_.now - s.flight.time);
-        fold(s);
+std::size_t SimpleAlgorithm::bytes() const {
+    return states_.size() * sizeof(State) + (pairs_.size() + walls_.size()) * sizeof(Next);
+}
+
+std::vector<RawState> SimpleAlgorithm::raw_states() const {
+    std::vector<RawState> all;
+    for (const State& s : states_) {
         const Vector<double>&x = s.flight.place, &v = s.flight.velocity;
-        all.push_back({static_cast<std::uint32_t>(n),
-                       s.kind,
-                       {x.x, x.y, x.z},
+        all.push_back({{x.x, x.y, x.z},
                        {v.x, v.y, v.z},
                        {s.spin.x, s.spin.y, s.spin.z},
-                       s.turns});
+                       s.flight.time,
+                       s.last_time,
+                       s.turns,
+                       static_cast<std::uint32_t>(s.last), // -1: none
+                       s.hits,
+                       s.kind});
     }
     return all;
+}
+
+std::string SimpleAlgorithm::serialise() const {
+    ByteWriter out;
+    out.put_text("simple");
+    const std::vector<RawState> states = raw_states();
+    out.put_array(states.data(), states.size());
+    put_course(out);
+    return out.bytes();
+}
+
+void SimpleAlgorithm::restore(const std::string& bytes) {
+    ByteReader in(bytes);
+    std::vector<RawState> states;
+    if (in.get_text() != "simple") fail(Exit::io, "the state is of the improved algorithm");
+    in.get_array(states);
+    if (states.size() != states_.size())
+        fail(Exit::io, "the state is of {} particles instead of {}", states.size(), states_.size());
+    for (std::size_t n = 0; n < states.size(); ++n) {
+        const RawState& s = states[n];
+        if (s.kind >= setup_.classes.size()) fail(Exit::io, "damaged state");
+        const std::int64_t last = s.last < states.size() ? static_cast<std::int64_t>(s.last) : -1;
+        states_[n] = {{{s.place[0], s.place[1], s.place[2]},
+                       {s.velocity[0], s.velocity[1], s.velocity[2]},
+                       s.time},
+                      {s.spin[0], s.spin[1], s.spin[2]},
+                      s.kind,
+                      s.boxes,
+                      last,
+                      s.last_time,
+                      s.hits};
+    }
+    get_course(in);
+    for (std::size_t i = 0; i < states_.size(); ++i) predict(i);
 }
 
 } // namespace sandlane::edmd

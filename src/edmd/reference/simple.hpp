@@ -2,8 +2,8 @@
 // runs boxes too small for cells.
 #pragma once
 
+#include "edmd/algorithm.hpp"
 #include "edmd/epochs.hpp"
-#include "edmd/event_log.hpp"
 #include "edmd/physics.hpp"
 
 #include <limits>
@@ -11,18 +11,16 @@
 
 namespace sandlane::edmd {
 
-class SimpleAlgorithm {
+class SimpleAlgorithm final : public Algorithm {
 public:
     SimpleAlgorithm(Setup setup, const std::vector<Particle>& particles);
 
-    // As Simulation::run, with the same events at the same times, bit for bit.
-    std::int64_t run(std::int64_t events, double until = std::numeric_limits<double>::infinity());
-
-    [[nodiscard]] double time() const { return clock_.time(); }
-    [[nodiscard]] const Tally& tally() const { return tally_; }
-    [[nodiscard]] const EventLog& log() const { return log_; }
-    [[nodiscard]] EventLog& log() { return log_; }
-    [[nodiscard]] std::vector<Particle> particles() const; // at time(), by id
+    std::int64_t run(std::int64_t events, double until = std::numeric_limits<double>::infinity()) override;
+    [[nodiscard]] std::size_t size() const override { return states_.size(); }
+    [[nodiscard]] std::size_t bytes() const override;
+    [[nodiscard]] std::vector<RawState> raw_states() const override;
+    [[nodiscard]] std::string serialise() const override;
+    void restore(const std::string& bytes) override;
 
 private:
     struct State {
@@ -54,15 +52,9 @@ private:
     void fold(State& s) const;
     void begin_epoch();
 
-    Setup setup_;
     std::vector<State> states_;
     std::vector<Next> pairs_; // of i < j: [j (j - 1)/2 + i]
     std::vector<Next> walls_; // [6 i + side]
-    Clock clock_;
-    Tally tally_;
-    EventLog log_;
-    std::int64_t epoch_events_ = 0;
-    double epoch_end_ = 0;
 };
 
 } // namespace sandlane::edmd
