@@ -84,7 +84,6 @@ struct Edmd {
     double sample_every = 0, sample_start = 0; // s
     GasAxis profile_axis = GasAxis::x;
     std::int64_t profile_bins = 20;
-    std::int64_t spectrum = 0; // wave numbers of spectrum.csv
 };
 
 } // namespace sandlane::scene

@@ -141,16 +141,13 @@ const Table<Edmd>& edmd_table() {
             .number("cell_edge", &Edmd::cell_edge, Unit::length, not_negative(),
                     "least edge of the cells; 0: chosen. Results do not depend on it")
             .number("sample_every", &Edmd::sample_every, Unit::time, any,
-                    "frames of profile.csv, distribution.csv and spectrum.csv, averages over time; 0: "
-                    "duration/200, negative: none")
+                    "frames of profile.csv and distribution.csv, averages over time; 0: duration/200, "
+                    "negative: none")
             .number("sample_start", &Edmd::sample_start, Unit::time, not_negative(),
                     "frames before it are left out")
             .choice("profile_axis", &Edmd::profile_axis, {"x", "y", "z"},
                     "axis across the bins of profile.csv")
-            .integer("profile_bins", &Edmd::profile_bins, between(1, 100000), "of profile.csv")
-            .integer("spectrum", &Edmd::spectrum, between(0, 1000),
-                     "periodic boxes: so many wave numbers 2 pi n/L of spectrum.csv, the structure factor of "
-                     "density and the spectra of longitudinal and transverse momentum; 0: none");
+            .integer("profile_bins", &Edmd::profile_bins, between(1, 100000), "of profile.csv");
     return table;
 }
 

@@ -4,6 +4,7 @@
 #include "scene/schema.hpp"
 #include "scene/space.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -150,10 +151,6 @@ struct GasValidator {
             reject("edmd: says no end; give duration, events or both above 0");
         if (static_cast<std::int64_t>(e.profile_axis) >= scene.domain.dimension)
             reject("edmd.profile_axis: a plane has no z axis");
-        if (e.spectrum > 0)
-            for (const AxisOfSpace& axis : axes(scene.domain.dimension))
-                if (!scene.domain.periodic[axis.index])
-                    reject("edmd.spectrum: needs a domain that is periodic in all directions; use 0");
     }
 };
 
