@@ -41,7 +41,8 @@ struct Candidates {
     std::uint64_t faces[room + width];
     int size = 0;
 };
-template <class Arch> SANDLANE_INLINE void put_cell(Candidates& c, const HardCell& cell, std::uint64_t faces) {
+template <class Arch>
+SANDLANE_INLINE void put_cell(Candidates& c, const HardCell& cell, std::uint64_t faces) {
     std::memcpy(c.particle + c.size, cell.particle, sizeof cell);
     Words<Arch>(faces).store(c.faces + c.size);
     c.size += static_cast<int>(cell.size());

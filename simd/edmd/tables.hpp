@@ -41,8 +41,8 @@ struct alignas(64) HardEvents {
 };
 static_assert(sizeof(HardEvents) == 64);
 
-// Three numbers of particles and the way to more of them. meta: how many, and cell_slots + 1 times the number of
-// the next one; 0: none.
+// Three numbers of particles and the way to more of them. meta: how many, and cell_slots + 1 times the number
+// of the next one; 0: none.
 inline constexpr std::uint32_t cell_slots = 3;
 struct alignas(16) HardCell {
     std::uint32_t particle[cell_slots];
@@ -97,7 +97,8 @@ inline void add_contact(HardFound& f, double time, std::uint32_t j, const HardEv
         if (is_wall(other) || is_wall(j)) return is_wall(j) && (!is_wall(other) || j < other);
         return events[j].id < events[other].id;
     };
-    // With one contact left of a list that missed some, those come before any that is later than the one left.
+    // With one contact left of a list that missed some, those come before any that is later than the one
+    // left.
     const bool closed = f.missed && f.second == no_partner && f.first != no_partner;
     if (!before(f.second_time, f.second) || (closed && !before(f.first_time, f.first))) {
         f.missed = true;

@@ -88,8 +88,7 @@ void GasSamples::add(const std::vector<Particle>& particles, const MassOf& mass_
     double mean[3] = {}, variance = 0;
     for (std::size_t c = 0; c < d; ++c) {
         mean[c] = all.velocity[c] / all.mass;
-        variance +=
-            (all.square[c] - all.mass * mean[c] * mean[c]) / all.count / static_cast<double>(d);
+        variance += (all.square[c] - all.mass * mean[c] * mean[c]) / all.count / static_cast<double>(d);
     }
     if (!(variance > 0)) return;
     constexpr double per_unit = speed_bins / fastest;

@@ -45,13 +45,10 @@ public:
     }
 
 private:
-    [[nodiscard]] double heating(double temperature) const {
-        return gas_.kicks / (temperature / gas_.mass);
-    }
+    [[nodiscard]] double heating(double temperature) const { return gas_.kicks / (temperature / gas_.mass); }
     [[nodiscard]] double cooling(double temperature) const {
         const double variance = temperature / gas_.mass;
-        return rate_ * std::sqrt(variance) / gas_.dimension *
-               loss(gas_.restitution, variance) * sonine_;
+        return rate_ * std::sqrt(variance) / gas_.dimension * loss(gas_.restitution, variance) * sonine_;
     }
 
     const HardGas& gas_;

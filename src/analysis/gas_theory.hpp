@@ -1,5 +1,5 @@
-// What kinetic theory says of a homogeneous gas of hard particles: rates, and the cooling that runs are compared
-// with.
+// What kinetic theory says of a homogeneous gas of hard particles: rates, and the cooling that runs are
+// compared with.
 #pragma once
 
 #include "laws/restitution_models.hpp"

@@ -41,8 +41,10 @@ struct Mark {
 
 class EdmdEngine final : public GasEngine {
 public:
-    EdmdEngine(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const edmd::Plan> plan, simd::Isa isa)
-        : scene_(std::move(scene)), plan_(std::move(plan)), isa_(isa), run_(edmd::start(*scene_, *plan_, isa)) {}
+    EdmdEngine(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const edmd::Plan> plan,
+               simd::Isa isa)
+        : scene_(std::move(scene)), plan_(std::move(plan)), isa_(isa),
+          run_(edmd::start(*scene_, *plan_, isa)) {}
 
     [[nodiscard]] const Words& words() const override {
         static const Words words{"particle", "particles", "particles", "events", "events", "s"};
@@ -57,7 +59,9 @@ public:
             scene_->edmd.duration > 0 ? scene_->edmd.duration : std::numeric_limits<double>::infinity();
         if (run_->run(steps, end) < steps) ended_ = true;
     }
-    [[nodiscard]] std::int64_t step() const override { return static_cast<std::int64_t>(run_->log().count()); }
+    [[nodiscard]] std::int64_t step() const override {
+        return static_cast<std::int64_t>(run_->log().count());
+    }
     [[nodiscard]] std::int64_t steps() const override {
         return scene_->edmd.events > 0 ? scene_->edmd.events : std::numeric_limits<std::int64_t>::max();
     }
@@ -88,8 +92,8 @@ public:
             run_->restore(in.get_text());
             mark_ = mark[0];
         } catch (const Error& e) {
-            fail(e.code(), "{}: {}. Overrides by --set must keep gas, species, domain, sides and cells.", origin,
-                 e.what());
+            fail(e.code(), "{}: {}. Overrides by --set must keep gas, species, domain, sides and cells.",
+                 origin, e.what());
         }
     }
 
@@ -105,7 +109,9 @@ public:
         };
         return differences(after(first), after(second));
     }
-    [[nodiscard]] std::string kernels_compared() const override { return "100 events from the present state"; }
+    [[nodiscard]] std::string kernels_compared() const override {
+        return "100 events from the present state";
+    }
 
     [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override;
     [[nodiscard]] std::vector<double> log_row() override;
@@ -138,7 +144,8 @@ public:
         const edmd::Tally& t = run_->tally();
         return fmt::format(R"("collisions": {}, "wall_hits": {}, "elastic": {}, "smallest_gap": {}, )"
                            R"("event_log_hash": "{:016x}", )",
-                           t.collisions, t.wall_hits, t.elastic, json_number(t.smallest_gap), run_->log().hash());
+                           t.collisions, t.wall_hits, t.elastic, json_number(t.smallest_gap),
+                           run_->log().hash());
     }
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> report_rows() const override;
 
@@ -181,7 +188,8 @@ std::vector<double> EdmdEngine::log_row() {
     for (int d = 0; d < plan_->setup.dimension; ++d) row.push_back(o.drift[static_cast<std::size_t>(d)]);
     if (plan_->setup.rough) row.push_back(o.spin_temperature);
     if (plan_->homogeneous)
-        row.push_back(analysis::cooling_curve(edmd::gas_of(*plan_), scene_->gas.temperature, {time()}).front());
+        row.push_back(
+            analysis::cooling_curve(edmd::gas_of(*plan_), scene_->gas.temperature, {time()}).front());
     const double interval = time() - mark_.time;
     const double rate =
         interval > 0 ? 2 * static_cast<double>(t.collisions - mark_.collisions) / (n * interval) : 0;

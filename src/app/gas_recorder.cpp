@@ -18,7 +18,7 @@ std::int64_t asked(double every, double duration, double dt) {
 } // namespace
 
 GasRecorder::GasRecorder(const std::filesystem::path& folder, const GasEngine& engine,
-                           const output::Checkpoint* resume)
+                         const output::Checkpoint* resume)
     : engine_(engine), folder_(folder),
       sample_steps_(interval(engine.sampling().every, engine.duration(), 200, engine.time_step())),
       picture_steps_(asked(engine.scene().output.picture_every, engine.duration(), engine.time_step())),

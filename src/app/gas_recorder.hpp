@@ -17,7 +17,7 @@ namespace sandlane::app {
 class GasRecorder final : public Recorder {
 public:
     GasRecorder(const std::filesystem::path& folder, const GasEngine& engine,
-                 const output::Checkpoint* resume);
+                const output::Checkpoint* resume);
 
     [[nodiscard]] std::int64_t next_due(std::int64_t step) const override;
     void write_due(bool all) override;

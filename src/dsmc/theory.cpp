@@ -6,7 +6,8 @@ namespace sandlane::dsmc {
 
 analysis::HardGas gas_of(const Setup& setup, std::size_t particles) {
     const Scales s = scales(setup, particles, setup.mass);
-    return {setup.dimension, s.density, s.correlation, setup.mass, setup.diameter, setup.restitution, setup.kicks};
+    return {setup.dimension, s.density,         s.correlation, setup.mass,
+            setup.diameter,  setup.restitution, setup.kicks};
 }
 
 bool is_homogeneous(const Setup& setup) {

@@ -13,9 +13,8 @@ std::vector<Particle> Algorithm::particles() const {
     const Vector<double> gravity{setup_.gravity[0], setup_.gravity[1], setup_.gravity[2]};
     for (std::size_t n = 0; n < states.size(); ++n) {
         const RawState& s = states[n];
-        laws::Flight<double> f{{s.place[0], s.place[1], s.place[2]},
-                               {s.velocity[0], s.velocity[1], s.velocity[2]},
-                               s.time};
+        laws::Flight<double> f{
+            {s.place[0], s.place[1], s.place[2]}, {s.velocity[0], s.velocity[1], s.velocity[2]}, s.time};
         laws::fly<3, true>(f, clock_.now - s.time, gravity);
         Particle& p = all[n];
         p.id = static_cast<std::uint32_t>(n);
@@ -86,14 +85,15 @@ void Algorithm::check_course() {
     const auto events = static_cast<std::int64_t>(log_.count());
     if (guard_.sees(time(), events, size()))
         fail(Exit::unstable,
-             "inelastic collapse at t = {:.9g} s: after {} events, a thousand more for each particle take no time. "
+             "inelastic collapse at t = {:.9g} s: after {} events, a thousand more for each particle take no "
+             "time. "
              "Give edmd.contact_time or edmd.elastic_speed, e.g. a thousandth of the time between two "
              "collisions, or of the thermal speed",
              time(), events);
     const double radius = setup_.smallest_radius();
     if (tally_.smallest_gap < -1e-9 * radius)
-        fail(Exit::unstable, "particles overlap by {:.3g} m when they meet, at t = {:.9g} s", -tally_.smallest_gap,
-             time());
+        fail(Exit::unstable, "particles overlap by {:.3g} m when they meet, at t = {:.9g} s",
+             -tally_.smallest_gap, time());
 }
 
 Observables observe(const Setup& setup, const std::vector<Particle>& particles) {

@@ -65,11 +65,11 @@ private:
 // Sums over events, in their order.
 struct Tally {
     std::int64_t collisions = 0, wall_hits = 0;
-    std::int64_t elastic = 0;  // made so by the rules against inelastic collapse
-    double kept = 0;           // energy that they kept, J
-    double virial = 0;         // sum of R_ij |P_n|, J s
-    double wall_energy = 0;    // that walls gave, J
-    double smallest_gap = 0;   // of surfaces that met, m; rounding
+    std::int64_t elastic = 0; // made so by the rules against inelastic collapse
+    double kept = 0;          // energy that they kept, J
+    double virial = 0;        // sum of R_ij |P_n|, J s
+    double wall_energy = 0;   // that walls gave, J
+    double smallest_gap = 0;  // of surfaces that met, m; rounding
 
     SANDLANE_INLINE void add(const Impact& impact, const Class& a, const Class& b) {
         ++collisions;
@@ -85,8 +85,8 @@ struct Tally {
     }
 };
 
-// Looks for infinitely many collisions in a finite time: a thousand events for each particle within 1e-9 of the
-// mean time between two of a particle so far.
+// Looks for infinitely many collisions in a finite time: a thousand events for each particle within 1e-9 of
+// the mean time between two of a particle so far.
 class CollapseGuard {
 public:
     // At the end of an epoch: `time` on the clock, events so far. True: this is a collapse.

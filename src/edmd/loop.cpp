@@ -119,8 +119,7 @@ template <int dimension> void Simulation::fetch_cells(std::uint32_t i, int layer
 template <int dimension> void Simulation::fetch_states(std::uint32_t i, int layer) const {
     for_rows<dimension>(i, layer, [&](const simd::HardCell* first, const simd::HardCell* last) {
         for (; first <= last; ++first)
-            for (std::uint32_t k = 0; k < first->size(); ++k)
-                fetch(states_.data() + first->particle[k]);
+            for (std::uint32_t k = 0; k < first->size(); ++k) fetch(states_.data() + first->particle[k]);
     });
 }
 // Fetches what the buckets that come up will read: each time one comes up, the ones after it take a step.
@@ -170,7 +169,8 @@ bool Simulation::still_meets(std::uint32_t i, std::uint32_t j, double time) cons
         const int apart = std::abs(a.cell[d] - b.cell[d]);
         if (apart > 1 && !(view_.periodic[d] && apart == view_.count[d] - 1)) return false;
     }
-    const double reach = radius_[special ? kind_of(states_[i]) : 0] + radius_[special ? kind_of(states_[j]) : 0];
+    const double reach =
+        radius_[special ? kind_of(states_[i]) : 0] + radius_[special ? kind_of(states_[j]) : 0];
     const Vector<double> gravity{setup_.gravity[0], setup_.gravity[1], setup_.gravity[2]};
     return laws::pair_time<dimension, special, double>(flight_of(states_[i]), flight_of(states_[j]),
                                                        shift_of<dimension>(i, j), reach, gravity,
@@ -301,8 +301,7 @@ template <int dimension, bool special> void Simulation::collide_pair(std::uint32
     log_.add({now_, Event::Kind::pair, events_[i].id, events_[j].id});
 }
 
-template <int dimension>
-void Simulation::settle(std::uint32_t i, const Body& body, std::uint32_t partner) {
+template <int dimension> void Simulation::settle(std::uint32_t i, const Body& body, std::uint32_t partner) {
     HardState& s = states_[i];
     s.place[0] = body.place.x, s.place[1] = body.place.y, s.place[2] = body.place.z;
     s.velocity[0] = body.velocity.x, s.velocity[1] = body.velocity.y, s.velocity[2] = body.velocity.z;
@@ -320,8 +319,8 @@ template <int dimension> void Simulation::meet_side(std::uint32_t i, std::uint32
     laws::fly<dimension, true>(f, now_ - f.time, gravity);
     Body body{f.place, f.velocity, {0, 0, 0}, kind_of(states_[i])};
     if (setup_.rough) body.spin = spin_[i];
-    const WallHit hit{side / 2, side % 2,  clock_.epoch + now_,
-                      e.id,     e.hits, now_ - e.last_time < setup_.contact_time};
+    const WallHit hit{side / 2, side % 2, clock_.epoch + now_,
+                      e.id,     e.hits,   now_ - e.last_time < setup_.contact_time};
     const WallEffect effect = meet_wall(setup_, body, hit);
     if (effect.heated) ++e.hits;
     if (setup_.rough) spin_[i] = body.spin;

@@ -73,9 +73,9 @@ double wall_time(const Setup& setup, const laws::Flight<double>& state, std::uin
     const double bound = upper == 0 ? setup.lower[axis] : setup.upper[axis];
     const double gap = sign * (component(state.place, axis) - bound) - setup.classes[kind].radius;
     const double v = sign * component(state.velocity, axis), g = sign * setup.gravity[axis];
-    const double dt =
-        side.moves() ? laws::oscillating_wall_time(gap, v, g, side.motion, epoch + state.time, never)
-                     : laws::flat_wall_time(gap, v, g);
+    const double dt = side.moves()
+                          ? laws::oscillating_wall_time(gap, v, g, side.motion, epoch + state.time, never)
+                          : laws::flat_wall_time(gap, v, g);
     return state.time + dt;
 }
 

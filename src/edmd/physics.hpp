@@ -24,7 +24,8 @@ struct Impact {
 // Smooth particles of one class with constant restitution: the arithmetic of collide(), with what is trivial
 // left out.
 template <int dimension>
-SANDLANE_INLINE Impact collide_plain(double eps, double reach, Body& i, Body& j, const Vector<double>& shift) {
+SANDLANE_INLINE Impact collide_plain(double eps, double reach, Body& i, Body& j,
+                                     const Vector<double>& shift) {
     Vector<double> r = i.place - j.place - shift;
     if constexpr (dimension == 2) r.z = 0;
     const double distance = std::sqrt(dot(r, r));

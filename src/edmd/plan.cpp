@@ -48,8 +48,7 @@ Setup setup_of(const scene::Scene& scene) {
     }
     const double q = inertia[static_cast<std::size_t>(gas.body)];
     s.classes = {{0.5 * gas.diameter, gas.mass, q}};
-    for (const scene::Species& more : scene.species)
-        s.classes.push_back({0.5 * more.diameter, more.mass, q});
+    for (const scene::Species& more : scene.species) s.classes.push_back({0.5 * more.diameter, more.mass, q});
     s.restitution = {static_cast<laws::Restitution::Model>(gas.model), gas.restitution, gas.dissipation,
                      gas.critical_speed, gas.exponent};
     s.rough = gas.tangential_restitution != 1;
@@ -75,7 +74,8 @@ double highest_temperature(const scene::Scene& scene, const Setup& s) {
 
 bool has_room_for_cells(const Setup& s) {
     for (int d = 0; d < s.dimension; ++d)
-        if (s.periodic[d] && s.length(d) < 3.000001 * std::max(2 * s.largest_radius(), s.cell_edge)) return false;
+        if (s.periodic[d] && s.length(d) < 3.000001 * std::max(2 * s.largest_radius(), s.cell_edge))
+            return false;
     return true;
 }
 
@@ -83,7 +83,8 @@ bool has_room_for_cells(const Setup& s) {
 void expect_events(const scene::Scene& scene, Plan& plan) {
     const analysis::HardGas gas = gas_of(plan);
     const auto n = static_cast<double>(plan.particles());
-    const double hottest = highest_temperature(scene, plan.setup), rate = analysis::collision_rate(gas, hottest);
+    const double hottest = highest_temperature(scene, plan.setup),
+                 rate = analysis::collision_rate(gas, hottest);
     const double time = plan.homogeneous
                             ? analysis::collision_clock(gas, scene.gas.temperature, scene.edmd.duration)
                             : scene.edmd.duration;
@@ -121,16 +122,18 @@ void warn(const scene::Scene& scene, Plan& plan) {
                                             s.contact_time * rate));
     const double speed = std::sqrt(scene.gas.temperature / scene.gas.mass);
     if (s.elastic_speed > 0.1 * speed)
-        plan.warnings.push_back(fmt::format("edmd.elastic_speed is {:.2g} of the thermal speed, more than 0.1: "
-                                            "it changes the gas",
-                                            s.elastic_speed / speed));
+        plan.warnings.push_back(
+            fmt::format("edmd.elastic_speed is {:.2g} of the thermal speed, more than 0.1: "
+                        "it changes the gas",
+                        s.elastic_speed / speed));
     if (!s.is_plain() && s.falls() && s.has_walls() && s.contact_time == 0 && s.elastic_speed == 0) {
         bool dissipates = s.restitution.model == laws::Restitution::Model::constant && s.restitution.eps < 1;
         for (const auto& axis : s.side)
             for (const Side& side : axis) dissipates = dissipates || side.eps_n < 1;
         if (dissipates)
-            plan.warnings.push_back("particles come to rest on a wall by infinitely many bounces, which ends the "
-                                    "run; edmd.contact_time or edmd.elastic_speed prevents that");
+            plan.warnings.push_back(
+                "particles come to rest on a wall by infinitely many bounces, which ends the "
+                "run; edmd.contact_time or edmd.elastic_speed prevents that");
     }
     if (plan.simple && plan.particles() > 500)
         plan.warnings.push_back("the simple algorithm takes a time that grows as the square of the number of "
@@ -186,12 +189,13 @@ Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& thr
     const bool room = has_room_for_cells(s);
     using scene::EventAlgorithm;
     if (scene.edmd.algorithm == EventAlgorithm::improved && !room)
-        fail(Exit::invalid_input,
-             "edmd.algorithm = \"improved\": the domain must have room for three cells of a diameter each where it "
-             "is periodic; use \"auto\" or \"simple\"");
+        fail(Exit::invalid_input, "edmd.algorithm = \"improved\": the domain must have room for three cells "
+                                  "of a diameter each where it "
+                                  "is periodic; use \"auto\" or \"simple\"");
     plan.simple = scene.edmd.algorithm == EventAlgorithm::simple || !room;
     if (plan.simple && !room)
-        plan.chosen.push_back("the simple algorithm: the box is too small for three cells in a periodic direction");
+        plan.chosen.push_back(
+            "the simple algorithm: the box is too small for three cells in a periodic direction");
     if (plan.simple && plan.particles() > 20000)
         fail(Exit::invalid_input,
              "edmd.algorithm: the simple algorithm keeps all pairs; allowed: up to 20000 particles, here {}",
@@ -229,8 +233,8 @@ std::string describe(const scene::Scene& scene, const Plan& plan) {
     text += fmt::format("{}\n\nScene\n", scene.title.empty() ? "(untitled)" : scene.title);
     line("particles", fmt::format("{} of {} kind{}", plan.particles(), s.classes.size(),
                                   s.classes.size() == 1 ? "" : "s"));
-    line("density, packing fraction", fmt::format("{:.4g} 1/m^{}, {:.4g}", gas.density, s.dimension,
-                                                  packing_fraction(s, plan.amounts)));
+    line("density, packing fraction",
+         fmt::format("{:.4g} 1/m^{}, {:.4g}", gas.density, s.dimension, packing_fraction(s, plan.amounts)));
     line("temperature", fmt::format("{:.4g} J at the start", scene.gas.temperature));
     text += "\nDerived, at the start\n";
     line("collisions", fmt::format("{:.4g} 1/s per particle", rate));
@@ -241,7 +245,8 @@ std::string describe(const scene::Scene& scene, const Plan& plan) {
     line("engine", fmt::format("edmd, {} dimensions, {} algorithm", s.dimension == 3 ? "three" : "two",
                                plan.simple ? "simple" : "improved"));
     line("kernels", plan.simple ? "none" : std::string(simd::isa_name(plan.isa)));
-    line("threads", fmt::format("{}, to predict all events at once; events are taken one by one", plan.threads));
+    line("threads",
+         fmt::format("{}, to predict all events at once; events are taken one by one", plan.threads));
     for (const std::string& reason : plan.chosen) text += "  " + reason + "\n";
     text += "\nSkipped, because the scene does not need it\n";
     for (const std::string& reason : plan.skipped) text += "  " + reason + "\n";

@@ -31,7 +31,8 @@ public:
 
     // events.bucket must be `nowhere` for particles that never were in the queue.
     void put(std::uint32_t particle, simd::HardEvents& events) {
-        const double time = events.first_time < events.crossing_time ? events.first_time : events.crossing_time;
+        const double time =
+            events.first_time < events.crossing_time ? events.first_time : events.crossing_time;
         const double at = (time - origin_) * inverse_width_;
         if (at < end_) {
             const auto bucket = static_cast<std::uint32_t>(at < 0 ? 0 : at);
@@ -58,7 +59,8 @@ public:
     [[nodiscard]] bool advance(simd::HardEvents* events);
     // Entries of a bucket that comes up, some of which may no longer hold.
     template <class Body> void for_entries(std::uint32_t ahead, const Body& body) const {
-        if (current_ + ahead + fetched_ahead < buckets_) __builtin_prefetch(&blocks_[current_ + ahead + fetched_ahead]);
+        if (current_ + ahead + fetched_ahead < buckets_)
+            __builtin_prefetch(&blocks_[current_ + ahead + fetched_ahead]);
         if (current_ + ahead >= buckets_) return;
         const QueueBlock& b = blocks_[current_ + ahead];
         for (std::uint32_t k = 0; k < (b.meta & 7); ++k) body(b.particle[k]);
@@ -69,7 +71,8 @@ public:
     [[nodiscard]] std::vector<Entry>& sorted() { return sorted_; }
 
     [[nodiscard]] std::size_t bytes() const {
-        return blocks_.bytes() + later_.capacity() * sizeof(std::uint32_t) + sorted_.capacity() * sizeof(Entry);
+        return blocks_.bytes() + later_.capacity() * sizeof(std::uint32_t) +
+               sorted_.capacity() * sizeof(Entry);
     }
 
 private:

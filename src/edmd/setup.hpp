@@ -37,7 +37,7 @@ struct Setup {
     Side side[3][2]; // lower, upper
     double gravity[3] = {0, 0, 0};
     std::vector<Class> classes = std::vector<Class>(1);
-    laws::Restitution restitution;       // of particles with each other
+    laws::Restitution restitution; // of particles with each other
     bool rough = false;
     double tangential = 1, friction = 0; // rough: eps_t, mu
     double contact_time = 0;             // collisions sooner after the last one are elastic, s

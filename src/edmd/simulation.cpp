@@ -46,15 +46,14 @@ void Simulation::choose_cells() {
     // So that rounding cannot hide a contact behind a face.
     const double least = 2 * setup_.largest_radius() * (1 + 1e-12) + 64 * 2.3e-16 * longest;
     const double share = setup_.volume() / std::max<double>(1, static_cast<double>(states_.size()));
-    const double wanted =
-        setup_.cell_edge > 0 ? setup_.cell_edge : std::pow(share, 1.0 / setup_.dimension);
+    const double wanted = setup_.cell_edge > 0 ? setup_.cell_edge : std::pow(share, 1.0 / setup_.dimension);
     cell_count_ = 1;
     for (int d = 0; d < 3; ++d) {
         view_.count[d] = 1;
         if (d >= setup_.dimension) continue;
         const double edge = std::max(wanted, least);
-        view_.count[d] = static_cast<std::int32_t>(
-            std::clamp(std::floor(setup_.length(d) / edge), 1.0, 65535.0));
+        view_.count[d] =
+            static_cast<std::int32_t>(std::clamp(std::floor(setup_.length(d) / edge), 1.0, 65535.0));
         view_.periodic[d] = setup_.periodic[d];
         view_.length[d] = setup_.periodic[d] ? setup_.length(d) : 0;
         edge_[d] = setup_.length(d) / view_.count[d];
@@ -74,8 +73,8 @@ void Simulation::place_particles(const std::vector<Particle>& particles) {
         const Particle& p = particles[n];
         HardState& s = states_[n];
         HardEvents& e = events_[n];
-        e = {never_meets, never_meets, never_meets, no_partner, no_partner, Queue::nowhere, p.id, no_partner,
-             0,           -never_meets, {0, 0, 0},  0,          0};
+        e = {never_meets, never_meets,  never_meets, no_partner, no_partner, Queue::nowhere, p.id, no_partner,
+             0,           -never_meets, {0, 0, 0},   0,          0};
         s = {};
         s.word = static_cast<std::uint64_t>(p.kind) << 48;
         for (int d = 0; d < 3; ++d) {
@@ -86,8 +85,8 @@ void Simulation::place_particles(const std::vector<Particle>& particles) {
             s.velocity[d] = p.velocity[k];
             turns_[3 * n + k] = static_cast<std::int32_t>(p.image[k]);
             const double at = std::floor((p.place[k] - setup_.lower[d]) / edge_[d]);
-            e.cell[d] = static_cast<std::uint16_t>(
-                std::clamp(at, 0.0, static_cast<double>(view_.count[d] - 1)));
+            e.cell[d] =
+                static_cast<std::uint16_t>(std::clamp(at, 0.0, static_cast<double>(view_.count[d] - 1)));
         }
         if (setup_.rough) spin_[n] = {p.spin[0], p.spin[1], p.spin[2]};
         add_to_cell(cell_number(e.cell), static_cast<std::uint32_t>(n));
@@ -163,8 +162,10 @@ std::int64_t Simulation::run(std::int64_t events, double until) {
         epoch_events_ += taken;
         if (taken < asked && end < never_meets) now_ = std::max(now_, end);
         clock_.now = now_;
-        if (epoch_events_ == whole || (taken < asked && end == epoch_end_)) begin_epoch();
-        else if (taken < asked) break;
+        if (epoch_events_ == whole || (taken < asked && end == epoch_end_))
+            begin_epoch();
+        else if (taken < asked)
+            break;
     }
     return done;
 }

@@ -78,7 +78,7 @@ private:
     std::uint32_t free_cell_ = 0;
     std::int64_t cell_count_ = 0;
     double edge_[3] = {1, 1, 1};
-    Column<std::int32_t> turns_;   // boxes crossed until the last fold, three for each particle
+    Column<std::int32_t> turns_;       // boxes crossed until the last fold, three for each particle
     std::vector<Vector<double>> spin_; // rough particles
     simd::HardSearch view_{};
     std::vector<double> radius_;

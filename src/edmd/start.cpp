@@ -203,7 +203,8 @@ void place_on_lattice(const Setup& setup, std::vector<Particle>& particles) {
     const Lattice l = widest_lattice(setup, room, count);
     if (l.nearest < 2 * radius * (1 + 1e-12))
         fail(Exit::invalid_input,
-             "gas: {} particles of diameter {} m do not fit into the domain, not even on a lattice (sites {:.6g} "
+             "gas: {} particles of diameter {} m do not fit into the domain, not even on a lattice (sites "
+             "{:.6g} "
              "m apart). Take fewer or smaller ones, or a larger domain",
              count, 2 * radius, l.nearest);
     const bool space = setup.dimension == 3;

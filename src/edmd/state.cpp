@@ -82,7 +82,8 @@ std::string Simulation::serialise() const {
 
 void Simulation::restore(const std::string& bytes) {
     ByteReader in(bytes);
-    if (in.get_text() != frame()) fail(Exit::io, "the state is of other particles, another box or other cells");
+    if (in.get_text() != frame())
+        fail(Exit::io, "the state is of other particles, another box or other cells");
     const std::size_t n = states_.size();
     std::vector<HardState> states;
     std::vector<std::uint32_t> words;
@@ -96,8 +97,7 @@ void Simulation::restore(const std::string& bytes) {
     in.get_array(spin_);
     in.get_array(work);
     if (states.size() != n || words.size() != 6 * n || times.size() != n || turns.size() != 3 * n ||
-        (setup_.rough && spin_.size() != n)
-        || work.size() != 1)
+        (setup_.rough && spin_.size() != n) || work.size() != 1)
         fail(Exit::io, "damaged state");
     std::vector<std::uint32_t> at(n, simd::no_partner);
     for (std::size_t k = 0; k < n; ++k) {

@@ -1,5 +1,6 @@
 // When two hard particles that fly freely meet: a pure function of both states, on R = double or a block of
-// lanes, so that whoever asks, and when, gets the same bits (specification of event-driven dynamics, 5.1-5.9).
+// lanes, so that whoever asks, and when, gets the same bits (specification of event-driven
+// dynamics, 5.1-5.9).
 #pragma once
 
 #include "core/vector.hpp"
@@ -9,8 +10,8 @@ namespace sandlane::laws {
 // Time from now to the contact of particles at relative place r and velocity v whose radii sum up to `reach`:
 // the smaller root of |r + v t| = reach, in forms without cancellation; `never` if there is none. Particles
 // that touch or overlap by rounding and approach meet now.
-template <class R> SANDLANE_INLINE R meeting_in_plane(const Vector<R>& r, const Vector<R>& v, const R& reach,
-                                                      const R& never) {
+template <class R>
+SANDLANE_INLINE R meeting_in_plane(const Vector<R>& r, const Vector<R>& v, const R& reach, const R& never) {
     const R a = v.x * v.x + v.y * v.y, b = r.x * v.x + r.y * v.y;
     const R square = reach * reach, c = (r.x * r.x + r.y * r.y) - square;
     const R turn = r.x * v.y - r.y * v.x;
@@ -23,8 +24,8 @@ template <class R> SANDLANE_INLINE R meeting_in_plane(const Vector<R>& r, const 
     const R met = select(reached, time, select(c > R(0.0), never, R(0.0)));
     return select(approach, met, never);
 }
-template <class R> SANDLANE_INLINE R meeting_in_space(const Vector<R>& r, const Vector<R>& v, const R& reach,
-                                                      const R& never) {
+template <class R>
+SANDLANE_INLINE R meeting_in_space(const Vector<R>& r, const Vector<R>& v, const R& reach, const R& never) {
     const R a = dot(v, v), b = dot(r, v);
     const R square = reach * reach, c = dot(r, r) - square;
     const Vector<R> turn = cross(r, v);
@@ -75,7 +76,8 @@ SANDLANE_INLINE R pair_time(Flight<R> i, Flight<R> j, const Vector<R>& shift, co
     r.y = (i.place.y - j.place.y) - shift.y;
     v.x = i.velocity.x - j.velocity.x;
     v.y = i.velocity.y - j.velocity.y;
-    if constexpr (dimension == 2) return base + meeting_in_plane(r, v, reach, never);
+    if constexpr (dimension == 2)
+        return base + meeting_in_plane(r, v, reach, never);
     else {
         r.z = (i.place.z - j.place.z) - shift.z;
         v.z = i.velocity.z - j.velocity.z;

@@ -77,10 +77,10 @@ enum class EventAlgorithm { automatic, improved, simple };
 struct Edmd {
     EventAlgorithm algorithm = EventAlgorithm::automatic;
     double duration = 0;
-    std::int64_t events = 0;  // the run ends after so many; 0: only by its duration
-    double contact_time = 0;  // s: sooner collisions are elastic
-    double elastic_speed = 0; // m/s: slower impacts are elastic
-    double cell_edge = 0;     // m; 0: chosen
+    std::int64_t events = 0;                   // the run ends after so many; 0: only by its duration
+    double contact_time = 0;                   // s: sooner collisions are elastic
+    double elastic_speed = 0;                  // m/s: slower impacts are elastic
+    double cell_edge = 0;                      // m; 0: chosen
     double sample_every = 0, sample_start = 0; // s
     GasAxis profile_axis = GasAxis::x;
     std::int64_t profile_bins = 20;

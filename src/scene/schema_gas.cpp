@@ -112,8 +112,9 @@ const Table<Dsmc>& dsmc_table() {
 
 const Table<Species>& species_table() {
     static const Table<Species> table =
-        Table<Species>("Particles of another size or mass in the gas. Restitution, friction and body are those "
-                       "of [gas], and so is the temperature at the start.")
+        Table<Species>(
+            "Particles of another size or mass in the gas. Restitution, friction and body are those "
+            "of [gas], and so is the temperature at the start.")
             .integer("particles", &Species::particles, between(1, 2e9), "number of them")
             .required()
             .number("mass", &Species::mass, Unit::mass, positive(), "of one")
@@ -124,7 +125,8 @@ const Table<Species>& species_table() {
 const Table<Edmd>& edmd_table() {
     static const Table<Edmd> table =
         Table<Edmd>(
-            "Event-driven dynamics. Steps are events: collisions and hits of walls. The start is random where "
+            "Event-driven dynamics. Steps are events: collisions and hits of walls. The start is random "
+            "where "
             "there is room for that, else a lattice. Pictures and trajectories are written only where their "
             "intervals are given.")
             .choice("algorithm", &Edmd::algorithm, {"auto", "improved", "simple"},
@@ -132,7 +134,8 @@ const Table<Edmd>& edmd_table() {
                     "second for boxes of fewer than three cells")
             .number("duration", &Edmd::duration, Unit::time, not_negative(),
                     "simulated time; 0: no end by time")
-            .integer("events", &Edmd::events, between(0, 9e15), "the run ends after so many; 0: by its duration")
+            .integer("events", &Edmd::events, between(0, 9e15),
+                     "the run ends after so many; 0: by its duration")
             .number("contact_time", &Edmd::contact_time, Unit::time, not_negative(),
                     "against inelastic collapse: a particle whose last collision was less than this ago "
                     "collides elastically; 0: never")

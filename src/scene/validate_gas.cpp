@@ -47,9 +47,10 @@ struct GasValidator {
             packing += static_cast<double>(more.particles) *
                        grain_content(0.5 * more.diameter, scene.domain.dimension) / volume;
         if (packing > most)
-            reject("gas: the packing fraction is {:.4g}; allowed: up to {}, {}. Take fewer particles, a smaller "
-                   "weight or diameter, or a larger domain",
-                   packing, most, why);
+            reject(
+                "gas: the packing fraction is {:.4g}; allowed: up to {}, {}. Take fewer particles, a smaller "
+                "weight or diameter, or a larger domain",
+                packing, most, why);
         if (gas.model == RestitutionModel::viscoelastic && scene.gas.dissipation == 0)
             reject("gas.dissipation: is missing; model = \"viscoelastic\" needs it, above 0");
         if (gas.tangential_restitution == 1 && gas.friction > 0)
@@ -137,10 +138,11 @@ struct GasValidator {
         for (const AxisOfSpace& axis : axes(scene.domain.dimension)) {
             const double length = scene.domain.upper.*axis.component - scene.domain.lower.*axis.component;
             if (longest > length || (!scene.domain.periodic[axis.index] && longest == length))
-                reject("gas.diameter: particles of {} m do not fit into the domain, {} m in {}", longest, length,
-                       axis.name);
+                reject("gas.diameter: particles of {} m do not fit into the domain, {} m in {}", longest,
+                       length, axis.name);
             if (scene.domain.periodic[axis.index] && 2 * longest > length)
-                reject("domain: is {} m long in {}; allowed: at least two diameters, {} m, where it is periodic, "
+                reject("domain: is {} m long in {}; allowed: at least two diameters, {} m, where it is "
+                       "periodic, "
                        "so that no particle meets itself or another one twice",
                        length, axis.name, 2 * longest);
             if (e.cell_edge > length)

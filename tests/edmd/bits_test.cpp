@@ -1,5 +1,6 @@
 // The same events, bit for bit: simple and improved algorithm, all instruction sets, cells of any size, any
 // number of threads, any division of a run, and after a checkpoint.
+#include "core/error.hpp"
 #include "edmd/support.hpp"
 
 #include <gtest/gtest.h>
@@ -100,5 +101,98 @@ TEST(EdmdBits, SimpleAndImprovedAlgorithm) {
                 EXPECT_EQ(a[n].image, b[n].image);
             }
         }
+    }
+}
+
+TEST(EdmdBits, CellsThreadsAndDivisionOfTheRun) {
+    for (const Case& c : cases()) {
+        SCOPED_TRACE(c.name);
+        const auto particles = particles_of(c);
+        const simd::Isa isa = simd::available_isas().back();
+        edmd::Simulation once(c.setup, particles, isa, 1);
+        once.run(3000);
+        for (const double factor : {1.0, 1.7}) {
+            edmd::Setup other = c.setup;
+            other.cell_edge = factor * 2 * other.largest_radius();
+            bool fits = true;
+            for (int d = 0; d < other.dimension; ++d)
+                fits = fits && (!other.periodic[d] || other.length(d) > 3.01 * other.cell_edge);
+            if (!fits) continue;
+            edmd::Simulation same(other, particles, isa, factor > 1 ? 7 : 2);
+            for (std::int64_t n = 0; n < 3000; n += 250) same.run(250);
+            EXPECT_EQ(once.log().hash(), same.log().hash());
+            EXPECT_EQ(once.state_hash(), same.state_hash());
+        }
+    }
+}
+
+TEST(EdmdBits, StopsByTimeLeaveNoTrace) {
+    const Case c = cases()[1];
+    const auto particles = particles_of(c);
+    edmd::Simulation once(c.setup, particles, simd::Isa::scalar, 1);
+    once.run(5000);
+    edmd::Simulation stopped(c.setup, particles, simd::Isa::scalar, 1);
+    for (int k = 1; k <= 7; ++k) {
+        stopped.run(1000000, once.time() * k / 8);
+        EXPECT_NEAR(stopped.time(), once.time() * k / 8, 1e-12 * once.time());
+        (void)stopped.particles();
+    }
+    stopped.run(5000 - static_cast<std::int64_t>(stopped.log().count()));
+    EXPECT_EQ(once.log().hash(), stopped.log().hash());
+    EXPECT_EQ(once.state_hash(), stopped.state_hash());
+}
+
+TEST(EdmdBits, GoesOnAfterACheckpoint) {
+    for (const Case& c : cases()) {
+        SCOPED_TRACE(c.name);
+        const auto particles = particles_of(c);
+        const simd::Isa isa = simd::available_isas().back();
+        edmd::Simulation once(c.setup, particles, isa, 1), resumed(c.setup, particles, isa, 1);
+        edmd::SimpleAlgorithm simple(c.setup, particles), simple_resumed(c.setup, particles);
+        once.run(1700);
+        simple.run(1700);
+        resumed.restore(once.serialise());
+        simple_resumed.restore(simple.serialise());
+        EXPECT_EQ(once.state_hash(), resumed.state_hash());
+        EXPECT_EQ(once.state_hash(), simple.state_hash());
+        once.run(1700);
+        resumed.run(1700);
+        simple_resumed.run(1700);
+        EXPECT_EQ(once.state_hash(), resumed.state_hash());
+        EXPECT_EQ(once.state_hash(), simple_resumed.state_hash());
+        EXPECT_EQ(once.tally().virial, resumed.tally().virial);
+    }
+}
+
+TEST(EdmdBits, StatesOfSomethingElseAreRefused) {
+    const Case c = cases()[0];
+    edmd::Simulation gas(c.setup, particles_of(c), simd::Isa::scalar, 1);
+    std::string state = gas.serialise();
+    edmd::Setup other = c.setup;
+    other.upper[0] += 0.5;
+    edmd::Simulation different(other, particles_of(c), simd::Isa::scalar, 1);
+    EXPECT_THROW(different.restore(state), Error);
+    EXPECT_THROW(gas.restore(state.substr(0, state.size() / 2)), Error);
+    EXPECT_THROW(edmd::SimpleAlgorithm(c.setup, particles_of(c)).restore(state), Error);
+}
+
+// Rows of discs that move alike: all crossings and many contacts fall on the same times.
+TEST(EdmdBits, ManyEventsAtOnce) {
+    edmd::Setup s;
+    s.dimension = 2;
+    s.upper[0] = s.upper[1] = 16;
+    std::vector<edmd::Particle> particles(64);
+    for (std::uint32_t n = 0; n < 64; ++n) {
+        edmd::Particle& p = particles[n];
+        p.id = n;
+        p.place = {2.0 * (n % 8) + 0.5, 2.0 * (n / 8) + 0.5, 0};
+        p.velocity = {n % 2 == 0 ? 1.0 : -1.0, n / 8 % 2 == 0 ? 0.5 : -0.5, 0};
+    }
+    edmd::SimpleAlgorithm simple(s, particles);
+    const auto expected = test::events_of(simple, 4000);
+    for (const simd::Isa isa : simd::available_isas()) {
+        edmd::Simulation improved(s, particles, isa, 1);
+        expect_same(expected, test::events_of(improved, 4000));
+        EXPECT_EQ(simple.state_hash(), improved.state_hash());
     }
 }

@@ -1,6 +1,6 @@
 // The scenes of gases, smaller or shorter: what they show must happen.
-#include "dsmc/plan.hpp"
 #include "analysis/gas_samples.hpp"
+#include "dsmc/plan.hpp"
 #include "dsmc/simulation.hpp"
 #include "dsmc/theory.hpp"
 #include "scene/reader.hpp"

@@ -11,8 +11,7 @@ laws::Flight<double> flight_of(const HardState& s) {
 }
 
 std::int64_t image_of(const HardState& s, int d) {
-    return static_cast<std::int64_t>((s.word >> 16 * d) & image_mask) -
-           static_cast<std::int64_t>(image_zero);
+    return static_cast<std::int64_t>((s.word >> 16 * d) & image_mask) - static_cast<std::int64_t>(image_zero);
 }
 
 template <int dimension, bool general>
@@ -21,7 +20,7 @@ void search_near(const HardSearch& view, std::uint32_t i, int layer, std::uint32
     const HardState& me = view.state[i];
     const Vector<double> gravity{view.gravity[0], view.gravity[1], view.gravity[2]};
     const auto class_of = [](const HardState& s) { return general ? s.word >> 48 : 0; };
-    const auto look_at = [&](std::uint32_t j, const std::int64_t (&faces)[3]) {
+    const auto look_at = [&](std::uint32_t j, const std::int64_t(&faces)[3]) {
         if (j == i || j == excluded) return;
         const HardState& other = view.state[j];
         double shift[3] = {0, 0, 0};
@@ -32,7 +31,7 @@ void search_near(const HardSearch& view, std::uint32_t i, int layer, std::uint32
             flight_of(me), flight_of(other), {shift[0], shift[1], shift[2]}, reach, gravity, never_meets);
         if (time < never_meets) add_contact(found, time, j, view.events);
     };
-    const auto visit = [&](const std::int64_t (&step)[3]) {
+    const auto visit = [&](const std::int64_t(&step)[3]) {
         std::int64_t number = 0, stride = 1, faces[3] = {0, 0, 0};
         for (int d = 0; d < dimension; ++d) {
             std::int64_t at = view.events[i].cell[d] + step[d];

@@ -18,8 +18,10 @@ Vector<double> vector_of(const double (&v)[3]) {
 }
 
 void fly(const Setup& setup, laws::Flight<double>& f, double dt) {
-    if (setup.dimension == 2) laws::fly<2, true>(f, dt, vector_of(setup.gravity));
-    else laws::fly<3, true>(f, dt, vector_of(setup.gravity));
+    if (setup.dimension == 2)
+        laws::fly<2, true>(f, dt, vector_of(setup.gravity));
+    else
+        laws::fly<3, true>(f, dt, vector_of(setup.gravity));
 }
 
 double pair_time(const Setup& setup, const laws::Flight<double>& i, const laws::Flight<double>& j,
@@ -255,15 +257,14 @@ void SimpleAlgorithm::restore(const std::string& bytes) {
         const RawState& s = states[n];
         if (s.kind >= setup_.classes.size()) fail(Exit::io, "damaged state");
         const std::int64_t last = s.last < states.size() ? static_cast<std::int64_t>(s.last) : -1;
-        states_[n] = {{{s.place[0], s.place[1], s.place[2]},
-                       {s.velocity[0], s.velocity[1], s.velocity[2]},
-                       s.time},
-                      {s.spin[0], s.spin[1], s.spin[2]},
-                      s.kind,
-                      s.boxes,
-                      last,
-                      s.last_time,
-                      s.hits};
+        states_[n] = {
+            {{s.place[0], s.place[1], s.place[2]}, {s.velocity[0], s.velocity[1], s.velocity[2]}, s.time},
+            {s.spin[0], s.spin[1], s.spin[2]},
+            s.kind,
+            s.boxes,
+            last,
+            s.last_time,
+            s.hits};
     }
     get_course(in);
     for (std::size_t i = 0; i < states_.size(); ++i) predict(i);
