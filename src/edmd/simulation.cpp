@@ -46,14 +46,18 @@ void Simulation::choose_cells() {
     // So that rounding cannot hide a contact behind a face.
     const double least = 2 * setup_.largest_radius() * (1 + 1e-12) + 64 * 2.3e-16 * longest;
     const double share = setup_.volume() / std::max<double>(1, static_cast<double>(states_.size()));
-    const double wanted = setup_.cell_edge > 0 ? setup_.cell_edge : std::pow(share, 1.0 / setup_.dimension);
+    // Half a particle in each, or as asked, but not more than eight cells for each.
+    const double wanted = std::max(
+        setup_.cell_edge, std::pow((setup_.cell_edge > 0 ? 0.125 : 0.5) * share, 1.0 / setup_.dimension));
     cell_count_ = 1;
     for (int d = 0; d < 3; ++d) {
         view_.count[d] = 1;
         if (d >= setup_.dimension) continue;
         const double edge = std::max(wanted, least);
-        view_.count[d] =
-            static_cast<std::int32_t>(std::clamp(std::floor(setup_.length(d) / edge), 1.0, 65535.0));
+        // Four around a periodic box where there is room for them.
+        const double most = std::floor(setup_.length(d) / least);
+        const double count = std::max(std::floor(setup_.length(d) / edge), std::min(4.0, most));
+        view_.count[d] = static_cast<std::int32_t>(std::clamp(count, 1.0, 65535.0));
         view_.periodic[d] = setup_.periodic[d];
         view_.length[d] = setup_.periodic[d] ? setup_.length(d) : 0;
         edge_[d] = setup_.length(d) / view_.count[d];
@@ -162,7 +166,7 @@ std::int64_t Simulation::run(std::int64_t events, double until) {
         epoch_events_ += taken;
         if (taken < asked && end < never_meets) now_ = std::max(now_, end);
         clock_.now = now_;
-        if (epoch_events_ == whole || (taken < asked && end == epoch_end_))
+        if (epoch_events_ == whole || (taken < asked && end == epoch_end_ && end < never_meets))
             begin_epoch();
         else if (taken < asked)
             break;
