@@ -70,7 +70,7 @@ void collide(benchmark::State& state, const Case& c) {
     state.counters["stale"] = static_cast<double>(after.stale - before.stale) / static_cast<double>(events);
     state.counters["bytes_per_particle"] = static_cast<double>(gas->bytes()) / c.particles;
     // Four dependent misses of the cache per collision, if nothing were in order.
-    const double chase = bench::chase_seconds(gas->bytes());
+    const double chase = bench::load_latency(gas->bytes());
     state.counters["chase_ns"] = 1e9 * chase;
     state.counters["of_chase_bound"] = rate * 4 * chase;
 }
