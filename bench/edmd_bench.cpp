@@ -43,8 +43,8 @@ edmd::Setup hard_gas(const Case& c) {
 
 std::string name_of(const Case& c) {
     return fmt::format("edmd/{}{}{}/phi={}/N={}/{}", c.dimension == 3 ? "spheres" : "discs",
-                       c.rough ? "+rough" : "", c.eps < 1 ? fmt::format("+eps={}", c.eps) : "", c.phi, c.particles,
-                       simd::isa_name(c.isa));
+                       c.rough ? "+rough" : "", c.eps < 1 ? fmt::format("+eps={}", c.eps) : "", c.phi,
+                       c.particles, simd::isa_name(c.isa));
 }
 
 void collide(benchmark::State& state, const Case& c) {
@@ -66,7 +66,8 @@ void collide(benchmark::State& state, const Case& c) {
     const double rate = static_cast<double>(events) / clock.seconds();
     const edmd::Work& after = gas->work();
     state.counters["collisions_per_second"] = rate;
-    state.counters["crossings"] = static_cast<double>(after.crossings - before.crossings) / static_cast<double>(events);
+    state.counters["crossings"] =
+        static_cast<double>(after.crossings - before.crossings) / static_cast<double>(events);
     state.counters["stale"] = static_cast<double>(after.stale - before.stale) / static_cast<double>(events);
     state.counters["bytes_per_particle"] = static_cast<double>(gas->bytes()) / c.particles;
     // Four dependent misses of the cache per collision, if nothing were in order.
