@@ -54,7 +54,9 @@ void Simulation::add_to_cell(std::int64_t number, std::uint32_t i) {
     }
     if (free_cell_ == 0) {
         const std::size_t size = cells_.size(), from = static_cast<std::size_t>(cell - cells_.data());
-        cells_.resize(size + std::max<std::size_t>(16, size / 16));
+        Column<simd::HardCell> larger(size + std::max<std::size_t>(16, size / 32)); // without doubling
+        std::copy(cells_.begin(), cells_.end(), larger.begin());
+        cells_.swap(larger);
         for (std::size_t k = size; k < cells_.size(); ++k) {
             cells_[k].link(free_cell_);
             free_cell_ = static_cast<std::uint32_t>(k);

@@ -7,8 +7,14 @@ namespace sandlane::edmd {
 
 namespace {
 
-constexpr double per_bucket = 3; // entries, about
+constexpr double per_bucket = 4; // entries, about
 
+// Without the doubling of Column::resize.
+void grow(Column<QueueBlock>& column, std::size_t size) {
+    Column<QueueBlock> larger(size);
+    for (std::size_t k = 0; k < column.size(); ++k) larger[k] = column[k];
+    column.swap(larger);
+}
 double key_of(const simd::HardEvents& e) {
     return e.first_time < e.crossing_time ? e.first_time : e.crossing_time;
 }
@@ -17,9 +23,9 @@ double key_of(const simd::HardEvents& e) {
 
 void Queue::restart(double now, double events, std::size_t particles) {
     particles_ = particles;
-    buckets_ = 16;
-    while (buckets_ < particles / 2) buckets_ *= 2;
-    if (blocks_.size() < buckets_) blocks_.resize(buckets_ + buckets_ / 4);
+    // So that a turn of the ring takes one and a half mean waiting times.
+    buckets_ = static_cast<std::uint32_t>(std::max<std::size_t>(16, particles * 3 / 8));
+    if (blocks_.size() < buckets_) blocks_ = Column<QueueBlock>(buckets_ + buckets_ / 4 + 64);
     blocks_.fill({});
     free_ = 0;
     for (std::size_t k = buckets_; k < blocks_.size(); ++k) {
@@ -45,7 +51,7 @@ void Queue::append_block(std::uint32_t bucket, std::uint32_t particle) {
     }
     if (free_ == 0) {
         const std::size_t size = blocks_.size();
-        blocks_.resize(size + size / 4);
+        grow(blocks_, size + size / 8);
         for (std::size_t k = size; k < blocks_.size(); ++k) {
             blocks_[k].meta = free_ << 3;
             free_ = static_cast<std::uint32_t>(k);
