@@ -94,13 +94,39 @@ TEST(Gas, ManyThreadsChangeNothing) {
     EXPECT_TRUE(same(one, many));
 }
 
+constexpr std::int32_t tile = simd::gas_tile_rows;
+
 TEST(Gas, TilesOfRowsMeet) {
     for (const GasModel model : {GasModel::hpp, GasModel::fhp1, GasModel::fhp3}) {
-        expect_same_bits({model, 70, 64, false, false, false, 0, 0, 0}, 4);
-        expect_same_bits({model, 70, 98, false, false, true, 0, 0, 0}, 4);
-        expect_same_bits({model, 70, 33, true, false, false, 0, 0, 1}, 4);
+        expect_same_bits({model, 70, 2 * tile, false, false, false, 0, 0, 0}, 4);
+        expect_same_bits({model, 70, 3 * tile + 2, false, false, true, 0, 0, 0}, 4);
+        expect_same_bits({model, 70, tile + 1, true, false, false, 0, 0, 1}, 4);
     }
-    expect_same_bits({GasModel::fhp1, 130, 66, false, true, false, 0, 0, 0}, 6);
+    expect_same_bits({GasModel::fhp1, 130, 2 * tile + 2, false, true, false, 0, 0, 0}, 6);
+}
+
+// Two steps in a pass: tiles of every height that allows it, and some that do not.
+TEST(Gas, PairsOfStepsAreTwoSteps) {
+    for (const GasModel model : {GasModel::hpp, GasModel::fhp1, GasModel::fhp2, GasModel::fhp3})
+        for (const std::int32_t rows : {2, 4, tile, tile + 2, tile + 4, 2 * tile, 2 * tile + 6, 2 * tile + 3})
+            for (const bool closed : {false, true}) {
+                if (!closed && rows % 2 != 0) continue;
+                const Case c{model, 150,    rows, closed,
+                             false, closed, 0,    closed && model != GasModel::hpp ? .2 : 0,
+                             .4};
+                const GasRules rules = rules_of(c);
+                const GasLattice start = lattice_of(c, 0.3);
+                GasLattice expected = start;
+                for (std::uint32_t t = 0; t < 6; ++t) reference::step(expected, rules, t);
+                for (const simd::Isa isa : simd::available_isas())
+                    for (const int threads : {1, 3}) {
+                        GasLattice lattice = start;
+                        GasStepper stepper(lattice, rules, {isa, threads});
+                        for (std::uint32_t t = 0; t < 6; t += 2) stepper.step_twice(lattice, t);
+                        EXPECT_TRUE(same(lattice, expected)) << simd::isa_name(isa) << " model "
+                                                             << static_cast<int>(model) << " rows " << rows;
+                    }
+            }
 }
 
 TEST(Gas, PipesOfEveryShapeAndProbability) {
