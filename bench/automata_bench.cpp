@@ -108,7 +108,7 @@ void counted_pipe(benchmark::State& state, std::int32_t columns, std::int32_t ro
            threads);
 }
 
-// Grains on 64 heaps of 400 columns: the reference, or a heap to a lane.
+// Grains on 64 heaps that fill their table of 100 columns: the reference, or a heap to a lane.
 struct HeapCase {
     const char* name;
     double roughness;
@@ -121,13 +121,13 @@ constexpr HeapCase heaps[] = {{"heap", 0, 0, false},
                               {"heap-avalanches", 0.5, 3, true}};
 
 void heap(benchmark::State& state, const HeapCase& c, simd::Isa isa, int threads) {
-    constexpr std::uint32_t count = 64, grains = 100;
+    constexpr std::uint32_t count = 64, grains = 100, full = 12000;
     std::vector<HeapTable> tables;
     for (std::uint32_t n = 0; n < count; ++n) {
-        tables.emplace_back(400, HeapRules{.5, 1.5, 0, c.roughness, c.steepest, c.two_sided, {n, 0}});
-        for (std::uint32_t g = 0; g < 3000; ++g) tables.back().drop(g);
+        tables.emplace_back(100, HeapRules{.5, 1.5, 0, c.roughness, c.steepest, c.two_sided, {n, 0}});
+        for (std::uint32_t g = 0; g < full; ++g) tables.back().drop(g);
     }
-    std::uint32_t grain = 3000;
+    std::uint32_t grain = full;
     for (auto _ : state) {
         for_tiles_dynamic(count / simd::heap_lanes, threads, [&](std::size_t k) {
             const std::span part = std::span(tables).subspan(k * simd::heap_lanes, simd::heap_lanes);

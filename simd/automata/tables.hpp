@@ -141,18 +141,16 @@ using CreepKernel = void (*)(const RippleView&, std::int32_t first, std::int32_t
 
 inline constexpr int heap_lanes = 8;
 
-// Eight heaps, heights [places][heap_lanes]: columns 0, 1, ... and, of heaps of two sides, columns 1, 2, ...
-// of the left one, `left` places further.
+// Eight heaps, heights [places][heap_lanes]: columns 0, 1, ... and, of heaps of two sides, columns 1, 2, ... of
+// the left one, `left` places further. Doubles: whole numbers, for which no conversion is needed.
 struct HeapView {
-    std::int32_t* heights;
+    double* heights;
     std::int64_t columns, left;                         // left: 0 where there is one side
     double retained, sticking, start_energy, roughness; // r, U, E_0, delta
     std::int64_t steepest;                              // s_max; 0: no avalanches
     std::uint32_t seed[heap_lanes][2];
     std::int64_t *lost, *released; // [heap_lanes]: over the end, by avalanches
-    // Visits of the present grain, [places][heap_lanes], and the last column visited; of general kernels.
-    std::uint32_t* visits;
-    std::int64_t* reach;
+    std::uint64_t* visits;         // of the present grain, [places][heap_lanes], zero; of general kernels
 };
 // Drops grains with numbers first_grain, first_grain + 1, ... on each.
 using HeapKernel = void (*)(const HeapView&, std::uint32_t first_grain, std::int64_t grains);

@@ -60,7 +60,7 @@ Words words_of(const scene::Scene& s) {
 // About; times of outputs are parts of it. The constants are those of large lattices.
 double sweeps_until_quiet(const scene::Sandpile& s) {
     const double side = static_cast<double>(std::max(s.columns, s.rows));
-    if (s.start == scene::PileStart::doubled) return std::max(1.0, std::ceil(std::log2(side / 32)) + 1);
+    if (s.start == scene::PileStart::doubled) return 20 * side;
     if (s.start == scene::PileStart::identity) return 0.6 * side * side;
     const double spreading = 0.2 * static_cast<double>(s.centre),
                  sinking = s.height > 3 ? 0.1 * side * side : 0;

@@ -2,6 +2,7 @@
 
 #include "automata/spectrum.hpp"
 #include "core/bytes.hpp"
+#include "core/column.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -79,10 +80,9 @@ void drop_on_lanes(std::span<HeapTable> heaps, simd::Isa isa, std::uint32_t firs
     const HeapRules& rules = heaps.front().rules();
     const std::size_t places = heaps.front().heights().size();
     const bool general = rules.two_sided || rules.steepest > 0;
-    std::vector<std::int32_t> heights(places * lanes, 0);
-    std::vector<std::uint32_t> visits(general ? places * lanes : 0, 0);
-    std::int64_t lost[lanes] = {}, released[lanes] = {}, reach[lanes];
-    std::fill_n(reach, lanes, -1);
+    Column<double> heights(places * lanes, 0);
+    Column<std::uint64_t> visits(general ? places * lanes : 0, 0);
+    std::int64_t lost[lanes] = {}, released[lanes] = {};
     simd::HeapView v{heights.data(),
                      heaps.front().columns(),
                      rules.two_sided ? heaps.front().columns() - 1 : 0,
@@ -94,8 +94,7 @@ void drop_on_lanes(std::span<HeapTable> heaps, simd::Isa isa, std::uint32_t firs
                      {},
                      lost,
                      released,
-                     visits.data(),
-                     reach};
+                     visits.data()};
     for (std::size_t l = 0; l < lanes; ++l) { // lanes without a heap do as the first
         const HeapTable& heap = heaps[l < heaps.size() ? l : 0];
         v.seed[l][0] = heap.rules().seed[0];
@@ -104,7 +103,7 @@ void drop_on_lanes(std::span<HeapTable> heaps, simd::Isa isa, std::uint32_t firs
     }
     simd::automata_kernels(isa).heap[rules.roughness > 0 ? 1 : 0][general ? 1 : 0](v, first, grains);
     for (std::size_t l = 0; l < heaps.size(); ++l) {
-        for (std::size_t x = 0; x < places; ++x) heaps[l].heights()[x] = heights[x * lanes + l];
+        for (std::size_t x = 0; x < places; ++x) heaps[l].heights()[x] = static_cast<std::int32_t>(heights[x * lanes + l]);
         heaps[l].set_counts(heaps[l].lost() + lost[l], heaps[l].released() + released[l]);
     }
 }
