@@ -1,5 +1,5 @@
-// Heaps: a grain on each of eight heaps at once, a heap to a lane. All grains start at the same column, so that
-// those which still roll are always on the same one.
+// Heaps: a grain on each of eight heaps at once, a heap to a lane. All grains start at the same column, so
+// that those which still roll are always on the same one.
 #pragma once
 
 #include "simd/automata/tables.hpp"
@@ -111,12 +111,10 @@ private:
         if constexpr (!rough) return D(v.sticking);
         W place(static_cast<std::uint64_t>(x));
         if constexpr (general) {
-            if (x > 0)
-                place = place + (ones_where(left) & W(static_cast<std::uint64_t>(v.left)));
+            if (x > 0) place = place + (ones_where(left) & W(static_cast<std::uint64_t>(v.left)));
         }
-        const D u = to_unit<Arch>(random_words<Arch>(place, W(std::uint64_t{grain}),
-                                                     visits(p, x, left, rolling), W(std::uint64_t{2}), p.low,
-                                                     p.high));
+        const D u = to_unit<Arch>(random_words<Arch>(
+            place, W(std::uint64_t{grain}), visits(p, x, left, rolling), W(std::uint64_t{2}), p.low, p.high));
         return D(v.sticking) * (D(1 - v.roughness) + D(2 * v.roughness) * u);
     }
 
@@ -159,8 +157,8 @@ private:
         return {moved, x};
     }
 
-    // Columns of all heaps together, from the wall outwards; heaps at rest wait for the others. Returns the last
-    // column that was visited.
+    // Columns of all heaps together, from the wall outwards; heaps at rest wait for the others. Returns the
+    // last column that was visited.
     static std::int64_t avalanche(const Part& p, std::uint32_t grain) {
         const HeapView& v = p.v;
         const D steepest(static_cast<double>(v.steepest));

@@ -141,8 +141,8 @@ using CreepKernel = void (*)(const RippleView&, std::int32_t first, std::int32_t
 
 inline constexpr int heap_lanes = 8;
 
-// Eight heaps, heights [places][heap_lanes]: columns 0, 1, ... and, of heaps of two sides, columns 1, 2, ... of
-// the left one, `left` places further. Doubles: whole numbers, for which no conversion is needed.
+// Eight heaps, heights [places][heap_lanes]: columns 0, 1, ... and, of heaps of two sides, columns 1, 2, ...
+// of the left one, `left` places further. Doubles: whole numbers, for which no conversion is needed.
 struct HeapView {
     double* heights;
     std::int64_t columns, left;                         // left: 0 where there is one side

@@ -103,7 +103,8 @@ void drop_on_lanes(std::span<HeapTable> heaps, simd::Isa isa, std::uint32_t firs
     }
     simd::automata_kernels(isa).heap[rules.roughness > 0 ? 1 : 0][general ? 1 : 0](v, first, grains);
     for (std::size_t l = 0; l < heaps.size(); ++l) {
-        for (std::size_t x = 0; x < places; ++x) heaps[l].heights()[x] = static_cast<std::int32_t>(heights[x * lanes + l]);
+        for (std::size_t x = 0; x < places; ++x)
+            heaps[l].heights()[x] = static_cast<std::int32_t>(heights[x * lanes + l]);
         heaps[l].set_counts(heaps[l].lost() + lost[l], heaps[l].released() + released[l]);
     }
 }

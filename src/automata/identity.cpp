@@ -199,7 +199,8 @@ void IdentitySearch::load(ByteReader& bytes) {
     rounds_ = bytes.get<std::int64_t>();
     burning_ = bytes.get<std::uint8_t>() != 0;
     if (!burning_) return;
-    if (round_ < 1 || round_ > most_burned || rounds_ < 0) fail(Exit::io, "the state is one of another search");
+    if (round_ < 1 || round_ > most_burned || rounds_ < 0)
+        fail(Exit::io, "the state is one of another search");
     before_ = lattice_.heights;
     before_.fill(0);
     std::vector<std::uint8_t> row;

@@ -88,8 +88,8 @@ void SandpileModel::search(std::int64_t most) {
     const auto sizes = levels();
     const auto [columns, rows] = sizes[level_];
     if (search_ == nullptr)
-        search_ = std::make_unique<IdentitySearch>(stretched(potential_, columns, rows, means_.threads), means_,
-                                                   pile_.active_tiles);
+        search_ = std::make_unique<IdentitySearch>(stretched(potential_, columns, rows, means_.threads),
+                                                   means_, pile_.active_tiles);
     const IdentitySearch::Progress progress = search_->sweep(most);
     step_ += progress.sweeps;
     topplings_ += progress.topplings;
