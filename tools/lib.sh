@@ -50,6 +50,8 @@ need() {
                 say "installing $package (optional)"
                 apt_install "$package" || say "not installed: $package; what needs it is skipped"
             done
+            # CMake looks again for what it did not find.
+            if [ $((${#hard[@]} + ${#soft[@]})) -gt 0 ]; then rm -f "$root"/build/*/configured.stamp; fi
         else
             say "not Debian: please install what matches" $(listed "$group") $(listed "$group" soft)
         fi

@@ -102,7 +102,7 @@ private:
         const bool open = !mixture.scene.domain.periodic[0];
         const double margin = open ? radius : 0.0;
         const auto anywhere = [&](double length) { return margin + (length - 2 * margin) * uniform(); };
-        for (int attempt = 0; attempt < 100000; ++attempt) {
+        for (int attempt = 0; attempt < 2000; ++attempt) {
             Vec p{anywhere(size_.x), anywhere(size_.y), 0};
             if (dimension_ == 3) p.z = anywhere(size_.z);
             if (fits(p, radius)) return add(p, radius);
@@ -110,7 +110,7 @@ private:
     }
     void place_on(std::size_t large, double radius) {
         const scene::GrainState& on = mixture.grains[large];
-        for (int attempt = 0; attempt < 1000; ++attempt) {
+        for (int attempt = 0; attempt < 500; ++attempt) {
             Vec way{uniform() - 0.5, uniform() - 0.5, dimension_ == 3 ? uniform() - 0.5 : 0.0};
             Vec p = on.position + ((on.radius + radius * (0.8 + 0.4 * uniform())) / norm(way)) * way;
             const scene::Box box(mixture.scene.domain);
@@ -152,7 +152,7 @@ std::vector<Case> all_cases() {
     return cases;
 }
 
-// Made once: looking for places takes longer than the tests.
+// Made once for the tests of a process.
 const Mixture& mixture(int dimension, Sides sides) {
     static std::map<std::pair<int, Sides>, Mixture> made;
     const auto found = made.find({dimension, sides});
