@@ -134,7 +134,7 @@ TEST(CountedPipe, ConservesMass) {
                 for (const std::int32_t length : {1, 7, 64}) {
                     CountedPipe flow = pipe(length, length == 64 ? 1 : 4);
                     const std::int64_t particles = flow.particles();
-                    run(flow, rules(p, g, b), {best, 1}, 10000 / (10 * length));
+                    run(flow, rules(p, g, b), {best, 1}, 1000U / static_cast<std::uint32_t>(length));
                     ASSERT_EQ(flow.particles(), particles);
                 }
 }
@@ -275,8 +275,8 @@ TEST(Pipe, StructureFactorOfTheStart) {
     EXPECT_NEAR(mean, 0.9, 0.15); // 32 modes, 32 correlated times
 }
 
-// Published: power ~ f^-4/3 with dissipation from the strongest wave on; accepted [1.1, 1.6]. Without it a white
-// spectrum, up to the frequencies that a window of 16 places averages away, and far less power.
+// Published: power ~ f^-4/3 with dissipation from the strongest wave on; accepted [1.1, 1.6]. Without it a
+// white spectrum, up to the frequencies that a window of 16 places averages away, and far less power.
 TEST(SlowPipe, DensityWavesHaveAPowerLaw) {
     struct Waves {
         double exponent, low_exponent, power;
