@@ -79,7 +79,8 @@ void gas(benchmark::State& state, const GasCase& c, std::int32_t columns, std::i
             stepper.step(lattice, t);
         t += twice ? 2 : 1;
     };
-    report(state, {twice ? 2 * sites : sites, 2 * bits / 8 / (twice ? 2 : 1), sites * bits / 8, step}, isa, threads);
+    report(state, {twice ? 2 * sites : sites, 2 * bits / 8 / (twice ? 2 : 1), sites * bits / 8, step}, isa,
+           threads);
 }
 
 // A particle per site, all probabilities 0.1; after 500 steps as many rest as in the long run.
