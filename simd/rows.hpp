@@ -43,6 +43,92 @@ struct ForceRow<xsimd::avx2, dimension, fields> : WideForceRow<xsimd::avx2, dime
 #if defined(__AVX512F__)
 template <int dimension, int fields>
 struct ForceRow<xsimd::avx512bw, dimension, fields> : WideForceRow<xsimd::avx512bw, dimension, fields> {};
+template <int dimension> struct ForceRow<xsimd::avx512bw, dimension, 8> {
+    static SANDLANE_INLINE void add(double* to, const double* row) {
+        _mm512_storeu_pd(to, _mm512_add_pd(_mm512_loadu_pd(to), _mm512_loadu_pd(row)));
+    }
+    static SANDLANE_INLINE void add_mirrored(double* to, const double* row) {
+        const __m512d signs = _mm512_insertf64x4(_mm512_castpd256_pd512(mirror_signs<dimension, 0>()),
+                                                 mirror_signs<dimension, 4>(), 1);
+        const __m512d other = _mm512_xor_pd(signs, _mm512_loadu_pd(row));
+        _mm512_storeu_pd(to, _mm512_add_pd(_mm512_loadu_pd(to), other));
+    }
+};
+#endif
+#endif
+
+// ---- forces of contacts in the order of their first grains
+
+// Adds rows to the grains of a tile. The sum of the grain added to last stays in registers, so that no
+// addition waits for the store before it, and nothing branches on where the next grain begins: its row is
+// read from memory, that of the same grain from nowhere (`row` is as good as any).
+template <class Arch, int dimension, int fields> class RunningRow {
+public:
+    SANDLANE_INLINE explicit RunningRow(double* force) : force_(force) {}
+    SANDLANE_INLINE void add(std::ptrdiff_t grain, const double* row) {
+        ForceRow<Arch, dimension, fields>::add(force_ + grain * fields, row);
+    }
+
+private:
+    double* force_;
+};
+#if defined(__AVX2__)
+// `same`: all bits or none.
+SANDLANE_INLINE const double* where(std::uintptr_t same, const double* row, const double* other) {
+    const auto a = reinterpret_cast<std::uintptr_t>(other), b = reinterpret_cast<std::uintptr_t>(row);
+    return reinterpret_cast<const double*>(a ^ ((a ^ b) & same));
+}
+template <int fields> class WideRunningRow {
+public:
+    SANDLANE_INLINE explicit WideRunningRow(double* force) : force_(force) {
+        for (__m256d& s : sum_) s = _mm256_setzero_pd();
+    }
+    SANDLANE_INLINE void add(std::ptrdiff_t grain, const double* row) {
+        double* const to = force_ + grain * fields;
+        const std::uintptr_t same = -static_cast<std::uintptr_t>(grain == last_);
+        const double* const from = where(same, row, to);
+        const __m256d lasts = _mm256_castsi256_pd(_mm256_set1_epi64x(static_cast<long long>(same)));
+        for (int p = 0; p < parts; ++p) {
+            const __m256d before = _mm256_blendv_pd(_mm256_loadu_pd(from + 4 * p), sum_[p], lasts);
+            sum_[p] = _mm256_add_pd(before, _mm256_loadu_pd(row + 4 * p));
+            _mm256_storeu_pd(to + 4 * p, sum_[p]);
+        }
+        last_ = grain;
+    }
+
+private:
+    static constexpr int parts = fields / 4;
+    double* force_;
+    std::ptrdiff_t last_ = -1;
+    __m256d sum_[parts];
+};
+template <int dimension, int fields>
+class RunningRow<xsimd::avx2, dimension, fields> : public WideRunningRow<fields> {
+    using WideRunningRow<fields>::WideRunningRow;
+};
+#if defined(__AVX512F__)
+template <int dimension, int fields>
+class RunningRow<xsimd::avx512bw, dimension, fields> : public WideRunningRow<fields> {
+    using WideRunningRow<fields>::WideRunningRow;
+};
+template <int dimension> class RunningRow<xsimd::avx512bw, dimension, 8> {
+public:
+    SANDLANE_INLINE explicit RunningRow(double* force) : force_(force), sum_(_mm512_setzero_pd()) {}
+    SANDLANE_INLINE void add(std::ptrdiff_t grain, const double* row) {
+        double* const to = force_ + grain * 8;
+        const std::uintptr_t same = -static_cast<std::uintptr_t>(grain == last_);
+        const __m512d old = _mm512_loadu_pd(where(same, row, to));
+        sum_ =
+            _mm512_add_pd(_mm512_mask_mov_pd(old, static_cast<__mmask8>(same), sum_), _mm512_loadu_pd(row));
+        _mm512_storeu_pd(to, sum_);
+        last_ = grain;
+    }
+
+private:
+    double* force_;
+    std::ptrdiff_t last_ = -1;
+    __m512d sum_;
+};
 #endif
 #endif
 

@@ -181,9 +181,10 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
             most = max(f.overlap, most);
             store_force<Arch, fields>(f, rows + n * fields);
         }
+        RunningRow<Arch, dimension, fields> running(force);
         for (int n = 0; n < c.count; ++n) {
             const double* row = rows + n * fields;
-            Row::add(force + std::ptrdiff_t{c.i[n] - list.begin} * fields, row);
+            running.add(c.i[n] - list.begin, row);
             const auto partner = static_cast<std::uint32_t>(c.j[n] - list.begin);
             const std::ptrdiff_t target = partner < size_of_tile ? std::ptrdiff_t{partner} : tile_grains;
             Row::add_mirrored(force + target * fields, row);
