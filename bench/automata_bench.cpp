@@ -1,7 +1,9 @@
 // Cellular automata in site updates per second: model x size of the lattice x instruction set x threads.
 // `bound` is what the measured bandwidth of an in-place pass over the same bytes allows, site updates per
 // second; `share` the part of it that was reached.
+#include "automata/counted_pipe.hpp"
 #include "automata/gas.hpp"
+#include "automata/heap.hpp"
 #include "automata/ripples.hpp"
 #include "automata/sandpile.hpp"
 #include "core/parallel.hpp"
@@ -68,7 +70,79 @@ void gas(benchmark::State& state, const GasCase& c, std::int32_t columns, std::i
     GasStepper stepper(lattice, rules, {isa, threads});
     std::uint32_t t = 0;
     const double sites = static_cast<double>(columns) * rows, bits = rules.planes();
-    report(state, {sites, 2 * bits / 8, sites * bits / 8, [&] { stepper.step(lattice, t++); }}, isa, threads);
+    // Two steps in a pass; a pipe is looked at after each.
+    const bool twice = c.model != GasModel::pipe;
+    const auto step = [&] {
+        if (twice)
+            stepper.step_twice(lattice, t);
+        else
+            stepper.step(lattice, t);
+        t += twice ? 2 : 1;
+    };
+    report(state, {twice ? 2 * sites : sites, 2 * bits / 8 / (twice ? 2 : 1), sites * bits / 8, step}, isa,
+           threads);
+}
+
+// A particle per site, all probabilities 0.1; after 500 steps as many rest as in the long run.
+void counted_pipe(benchmark::State& state, std::int32_t columns, std::int32_t rows, simd::Isa isa,
+                  int threads) {
+    GasRules rules;
+    rules.model = GasModel::pipe;
+    rules.closed = true;
+    rules.dissipation = rules.gravity = rules.roughness = sixteenths(0.1);
+    rules.seed = {1, 0};
+    CountedPipe pipe(columns, rows);
+    for (int i = 0; i < 6; ++i)
+        for (std::size_t w = 0; w < pipe.several.size(); ++w) {
+            const PhiloxCounter r =
+                philox({static_cast<std::uint32_t>(w), static_cast<std::uint32_t>(i), 0, 0}, {1, 2});
+            const std::uint64_t eighth = (std::uint64_t{r[0]} << 32 | r[1]) &
+                                         (std::uint64_t{r[2]} << 32 | r[3]) &
+                                         (std::uint64_t{r[1]} << 32 | r[2]);
+            pipe.lattice.plane[static_cast<std::size_t>(i)][w] = eighth;
+        }
+    CountedStepper stepper(pipe, rules, {isa, threads});
+    std::uint32_t t = 0;
+    for (; t < (columns > 10000 ? 50U : 500U); ++t) stepper.step(pipe, t);
+    const double sites = static_cast<double>(columns) * rows;
+    report(state, {sites, 2 * 7 / 8. + 4 / 8., sites * 11 / 8, [&] { stepper.step(pipe, t++); }}, isa,
+           threads);
+}
+
+// Grains on 64 heaps that fill their table of 100 columns: the reference, or a heap to a lane.
+struct HeapCase {
+    const char* name;
+    double roughness;
+    std::int64_t steepest;
+    bool two_sided;
+};
+constexpr HeapCase heaps[] = {{"heap", 0, 0, false},
+                              {"heap-rough", 0.5, 0, false},
+                              {"heap-two-sided", 0.5, 0, true},
+                              {"heap-avalanches", 0.5, 3, true}};
+
+void heap(benchmark::State& state, const HeapCase& c, simd::Isa isa, int threads) {
+    constexpr std::uint32_t count = 64, grains = 100, full = 12000;
+    std::vector<HeapTable> tables;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        tables.emplace_back(100, HeapRules{.5, 1.5, 0, c.roughness, c.steepest, c.two_sided, {n, 0}});
+        for (std::uint32_t g = 0; g < full; ++g) tables.back().drop(g);
+    }
+    std::uint32_t grain = full;
+    for (auto _ : state) {
+        for_tiles_dynamic(count / simd::heap_lanes, threads, [&](std::size_t k) {
+            const std::span part = std::span(tables).subspan(k * simd::heap_lanes, simd::heap_lanes);
+            if (isa == simd::Isa::scalar)
+                for (HeapTable& table : part)
+                    for (std::uint32_t g = 0; g < grains; ++g) table.drop(grain + g);
+            else
+                drop_on_lanes(part, isa, grain, grains);
+        });
+        grain += grains;
+    }
+    state.counters["grains/s"] =
+        benchmark::Counter(static_cast<double>(count * grains) * static_cast<double>(state.iterations()),
+                           benchmark::Counter::kIsRate);
 }
 
 void pile(benchmark::State& state, std::int32_t columns, std::int32_t rows, int bytes, simd::Isa isa,
@@ -107,7 +181,13 @@ void ripples(benchmark::State& state, std::int32_t columns, std::int32_t rows, s
 void add_all() {
     const int most = allowed_cpus();
     for (const simd::Isa isa : simd::available_isas()) {
-        if (isa == simd::Isa::scalar) continue; // the reference is there to be right
+        for (const HeapCase& c : heaps)
+            for (int threads = 1; threads <= (isa == simd::Isa::scalar ? 1 : most); threads *= 2)
+                benchmark::RegisterBenchmark(
+                    fmt::format("automata/{}/{}/threads={}", c.name, simd::isa_name(isa), threads).c_str(),
+                    [=](benchmark::State& s) { heap(s, c, isa, threads); })
+                    ->UseRealTime();
+        if (isa == simd::Isa::scalar) continue; // other references are there to be right
         for (int threads = 1; threads <= most; threads *= 2)
             for (const bool large : {false, true}) {
                 const auto add = [&](const std::string& name, const auto& body) {
@@ -123,6 +203,9 @@ void add_all() {
                     const std::int32_t rows = large ? 1 << 14 : 128;
                     add(c.name, [=](benchmark::State& s) { gas(s, c, columns, rows, isa, threads); });
                 }
+                add("pipe-counted", [=](benchmark::State& s) {
+                    counted_pipe(s, large ? 1 << 14 : 1 << 12, large ? 1 << 13 : 128, isa, threads);
+                });
                 for (const int bytes : {1, 2})
                     add(fmt::format("pile-{}", bytes == 1 ? "bytes" : "words"), [=](benchmark::State& s) {
                         pile(s, large ? 1 << 14 : 512, large ? 1 << 13 : 512, bytes, isa, threads);

@@ -193,4 +193,41 @@ template <bool rest, class B> SANDLANE_INLINE void turn_towards_x(B* n, B where)
     }
 }
 
+// ---- any number of rest particles (spec 3.4.4): n[6] where there are some
+
+// How many rest particles beyond the first a site gains, one + 2 two, or loses.
+template <class B> struct RestChange { B one, two, less; };
+
+// several: where more than one rests. stops: where collisions dissipate. Collision, then gravity.
+template <class B>
+SANDLANE_INLINE RestChange<B> collide_counted(B* n, const B& several, const B& xi, const B& stops,
+                                              const B& gravity) {
+    const PairsAndTriples<B> found(n);
+    const B rest = n[6], two = stops & (found.pair[0] | found.pair[1] | found.pair[2]),
+            three = stops & found.triple;
+    B either[6]; // {one rest particle, i} or {i-1, i+1}, nothing else
+    B any = rest ^ rest;
+    for (int i = 0; i < 6; ++i) {
+        const B away = n[turned(i, 2)] | n[turned(i, 3)] | n[turned(i, 4)];
+        const B split = ~stops & rest & ~several & n[i] & ~(n[turned(i, 1)] | n[turned(i, 5)] | away);
+        const B join = stops & ~rest & ~n[i] & n[turned(i, 1)] & n[turned(i, 5)] & ~away;
+        either[i] = split | join;
+        any = any | either[i];
+    }
+    B change[3];
+    for (int a = 0; a < 3; ++a) change[a] = ~stops & found.change(a, xi);
+    for (int j = 0; j < 6; ++j)
+        n[j] = (n[j] ^ (change[j % 3] | either[j] | either[turned(j, 1)] | either[turned(j, 5)])) &
+               ~(two | three);
+    n[6] = (rest ^ any) | two | three;
+    RestChange<B> gain{(two & ~rest) | (three & rest), (two & rest) | three, rest ^ rest};
+    // A rest particle is the first that gravity moves.
+    const B moved = gravity & n[6] & ~n[0], fewer = moved & (several | two | three);
+    n[0] = n[0] | moved;
+    n[6] = n[6] & ~(moved & ~fewer);
+    turn_towards_x<false>(n, B(gravity & ~moved));
+    const B less = fewer & ~(gain.one | gain.two), minus = fewer & ~less;
+    return {gain.one ^ minus, gain.two ^ (minus & ~gain.one), less};
+}
+
 } // namespace sandlane::simd

@@ -1,6 +1,7 @@
 // Lattice gas: collision and propagation of the rows of a tile, in place. Each row is read and collided whole
 // into a buffer; what it sends along the row, down and up is shifted from there into the lattice, upwards one
-// row later.
+// row later. So a row is ready for the next step as soon as the row above it has been collided: two steps
+// take one pass over the memory.
 #pragma once
 
 #include "simd/automata/collisions.hpp"
@@ -139,6 +140,27 @@ template <class Arch> struct GasRows {
         }
     }
 
+    // The same where any number of particles rests on a site.
+    static void collide_counted_row(const GasView& v, std::int32_t row, const Buffer& buffer) {
+        const WordSource source{{v.seed[0], v.seed[1]}, static_cast<std::uint32_t>(row), v.step};
+        const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(row) * v.stride;
+        const W lane = lane_numbers<Arch>();
+        for (std::int32_t w = 0; w < v.stride; w += lanes) {
+            W n[gas_planes];
+            for (int i = 0; i < gas_planes; ++i) n[i] = load_words<Arch>(v.plane[i] + start + w);
+            const W several = load_words<Arch>(v.counted->several + start + w);
+            const W index = lane + W(static_cast<std::uint64_t>(w));
+            const W xi = random_words<Arch>(index, source, gas_stream::chirality * 64 + probability_bits - 1);
+            const W stops = draw(source, index, gas_stream::dissipation, v.dissipation);
+            const W gravity = draw(source, index, gas_stream::gravity, v.gravity);
+            const RestChange<W> change = collide_counted(n, several, xi, stops, gravity);
+            for (int i = 0; i < gas_planes; ++i) n[i].store_unaligned(buffer.collided[i] + w);
+            change.one.store_unaligned(v.counted->one + start + w);
+            change.two.store_unaligned(v.counted->two + start + w);
+            change.less.store_unaligned(v.counted->less + start + w);
+        }
+    }
+
     // What the first or last row sends into a wall comes back at the same site: straight, or mirrored.
     template <bool square>
     static void reflect(const GasView& v, std::int32_t row, const Buffer& buffer, bool lower,
@@ -265,53 +287,92 @@ template <class Arch> struct GasRows {
                 for (std::int32_t w = runs.run[k].first; w < runs.run[k].last; ++w) buffer.collided[i][w] = 0;
     }
 
+    // What a row needs while it is in work, by step of a pass.
+    struct Level {
+        Buffer buffer;
+        std::uint64_t* walls;
+        Activity active;
+
+        Level(const GasView& v, std::uint64_t* scratch)
+            : buffer(scratch, v.stride), walls(buffer.rising[1] + v.stride + pad),
+              active(v, walls + v.stride) {}
+    };
+
+    // Rows of a tile in order; `row` may be beyond the last of the lattice, which is periodic then.
     template <GasModel model, GasVariant variant>
-    static void step(const GasView& v, const GasTile& tile, std::uint64_t* scratch) {
+    static void pass_row(const GasView& v, const GasTile& tile, std::int32_t row, Level& level) {
         constexpr bool square = model == GasModel::hpp;
         constexpr int planes = planes_of(model), directions = square ? 4 : 6;
         // Directions along the row, up and down.
-        constexpr int level[2] = {0, square ? 2 : 3}, up[2] = {1, square ? 1 : 2},
+        constexpr int along[2] = {0, square ? 2 : 3}, up[2] = {1, square ? 1 : 2},
                       down[2] = {square ? 3 : 4, square ? 3 : 5}, sideways = square ? 1 : 2;
-        const Buffer buffer(scratch, v.stride);
-        std::uint64_t* const walls = buffer.rising[1] + v.stride + pad;
-        Activity active(v, walls + v.stride);
-        if (v.live != nullptr)
-            for (int i = 0; i < planes; ++i)
-                for (std::int32_t w = 0; w < v.stride; ++w) buffer.collided[i][w] = 0;
-        for (std::int32_t row = tile.first; row < tile.last; ++row) {
-            const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(row) * v.stride;
-            if (v.live != nullptr) empty(active.own, buffer, planes);
-            active.look(row, planes);
+        const Buffer& buffer = level.buffer;
+        Activity& active = level.active;
+        const bool first = row == tile.first, last = row + 1 == tile.last;
+        if (row >= v.rows) row -= v.rows;
+        const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(row) * v.stride;
+        const std::ptrdiff_t below =
+            row > 0 ? start - v.stride : start + (v.rows - 1) * std::ptrdiff_t{v.stride};
+        if (v.live != nullptr) empty(active.own, buffer, planes);
+        active.look(row, planes);
+        if constexpr (variant == GasVariant::counted)
+            collide_counted_row(v, row, buffer);
+        else
             for (std::int32_t k = 0; k < active.own.count; ++k)
                 collide_row<model, variant>(v, row, active.own.run[k], buffer);
-            if (row > tile.first) // sent up by the row before
-                for (int k = 0; k < sideways; ++k)
-                    move_runs(v, active.arriving, buffer.rising[k], 0, v.plane[up[k]] + start);
-            if (row == tile.first && tile.to_below == nullptr)
-                reflect<square>(v, row, buffer, true, v.plane[up[0]] + start, v.plane[up[1]] + start, walls);
-            if (row + 1 == tile.last && tile.to_above == nullptr)
-                reflect<square>(v, row, buffer, false, v.plane[down[0]] + start, v.plane[down[1]] + start,
-                                walls);
-            for (int i = 0; i < directions; ++i) close_ends(v, buffer.collided[i]);
-            for (const int i : level)
-                move_runs(v, active.level, buffer.collided[i], shift_of<square>(i, row), v.plane[i] + start);
-            if constexpr (planes == 7) move_runs(v, active.level, buffer.collided[6], 0, v.plane[6] + start);
-            for (int k = 0; k < sideways; ++k) {
-                const int shift = shift_of<square>(down[k], row);
-                if (row > tile.first)
-                    move_runs(v, active.below, buffer.collided[down[k]], shift,
-                              v.plane[down[k]] + start - v.stride);
-                else if (tile.to_below != nullptr)
-                    move(v, buffer.collided[down[k]], shift, tile.to_below + k * v.stride, 0, v.stride);
-            }
-            for (int k = 0; k < sideways; ++k) {
-                const int shift = shift_of<square>(up[k], row);
-                if (row + 1 < tile.last)
-                    move_runs(v, active.above, buffer.collided[up[k]], shift, buffer.rising[k]);
-                else if (tile.to_above != nullptr)
-                    move(v, buffer.collided[up[k]], shift, tile.to_above + k * v.stride, 0, v.stride);
-            }
+        if (!first) // sent up by the row before
+            for (int k = 0; k < sideways; ++k)
+                move_runs(v, active.arriving, buffer.rising[k], 0, v.plane[up[k]] + start);
+        if (first && tile.below[0] == nullptr)
+            reflect<square>(v, row, buffer, true, v.plane[up[0]] + start, v.plane[up[1]] + start,
+                            level.walls);
+        if (last && tile.above[0] == nullptr)
+            reflect<square>(v, row, buffer, false, v.plane[down[0]] + start, v.plane[down[1]] + start,
+                            level.walls);
+        for (int i = 0; i < directions; ++i) close_ends(v, buffer.collided[i]);
+        for (const int i : along)
+            move_runs(v, active.level, buffer.collided[i], shift_of<square>(i, row), v.plane[i] + start);
+        if constexpr (planes == 7) move_runs(v, active.level, buffer.collided[6], 0, v.plane[6] + start);
+        for (int k = 0; k < sideways; ++k) {
+            const int shift = shift_of<square>(down[k], row);
+            if (!first)
+                move_runs(v, active.below, buffer.collided[down[k]], shift, v.plane[down[k]] + below);
+            else if (tile.below[0] != nullptr)
+                move(v, buffer.collided[down[k]], shift, tile.below[k], 0, v.stride);
         }
+        for (int k = 0; k < sideways; ++k) {
+            const int shift = shift_of<square>(up[k], row);
+            if (!last)
+                move_runs(v, active.above, buffer.collided[up[k]], shift, buffer.rising[k]);
+            else if (tile.above[0] != nullptr)
+                move(v, buffer.collided[up[k]], shift, tile.above[k], 0, v.stride);
+        }
+    }
+
+    template <GasModel model, GasVariant variant>
+    static void step(const GasView& v, const GasTile& tile, std::uint64_t* scratch) {
+        Level level(v, scratch);
+        if (v.live != nullptr)
+            for (int i = 0; i < planes_of(model); ++i)
+                for (std::int32_t w = 0; w < v.stride; ++w) level.buffer.collided[i][w] = 0;
+        for (std::int32_t row = tile.first; row < tile.last; ++row)
+            pass_row<model, variant>(v, tile, row, level);
+    }
+
+    // A row goes on to the second step when the row above it has taken the first.
+    template <GasModel model, GasVariant variant>
+    static void pair(const GasView& v, const GasTile& first, const GasTile& second, std::uint64_t* scratch) {
+        GasView later = v;
+        ++later.step;
+        Level one(v, scratch), two(later, scratch + gas_scratch_words(v.stride));
+        const auto go_on = [&](std::int32_t row) {
+            if (row >= second.first && row < second.last) pass_row<model, variant>(later, second, row, two);
+        };
+        for (std::int32_t row = first.first; row < first.last; ++row) {
+            pass_row<model, variant>(v, first, row, one);
+            go_on(row - 1);
+        }
+        go_on(first.last - 1);
     }
 };
 

@@ -15,15 +15,15 @@ enum class GasModel { hpp, fhp1, fhp2, fhp3, pipe };
 inline constexpr int gas_models = 5;
 
 // How the collisions of a model are meant: random chirality; chirality (x + y + t) mod 2; random with solid
-// sites and a drive.
-enum class GasVariant { plain, alternating, general };
-inline constexpr int gas_variants = 3;
+// sites and a drive; any number of rest particles on a site (of the pipe).
+enum class GasVariant { plain, alternating, general, counted };
+inline constexpr int gas_variants = 4;
 
 inline constexpr int gas_planes = 7; // directions 0 to 5, then rest particles
 // Words of a row are padded to whole segments of 512 sites.
 inline constexpr std::int32_t segment_words = 8;
 // Rows of a tile, fixed, so that results do not depend on threads.
-inline constexpr std::int32_t gas_tile_rows = 32;
+inline constexpr std::int32_t gas_tile_rows = 64;
 
 // Words [first, last) of a row, whole segments.
 struct WordRange {
@@ -35,6 +35,13 @@ namespace gas_stream {
 inline constexpr std::uint32_t dissipation = 1, chirality = 2, gravity = 3, wall = 4;
 }
 inline constexpr int probability_bits = 16; // K: probabilities are P/2^K
+
+// Rest particles beyond the first of their site, laid out as planes: where there are some before the step,
+// and what collision and gravity do to them, one + 2 two more, or one less.
+struct CountedView {
+    const std::uint64_t* several;
+    std::uint64_t *one, *two, *less;
+};
 
 // One bit per site: bit x mod 64 of word x/64 of row y, plane[direction][y * stride + word]. Bits beyond the
 // last column are zero. A step happens in place: a row is read whole before anything is written to it. What
@@ -49,6 +56,7 @@ struct GasView {
     // null: all are taken to.
     const std::uint8_t* live;
     std::uint8_t* occupied;
+    const CountedView* counted; // of the variant `counted` only
 };
 
 // Words of memory that a kernel needs beside the lattice.
@@ -58,11 +66,25 @@ struct GasView {
 }
 
 struct GasTile {
-    std::int32_t first, last; // rows
-    // Where what leaves the tile goes, [2][stride]: directions 4 and 5, 1 and 2 (HPP: 3, 1); null at a wall.
-    std::uint64_t *to_below, *to_above;
+    std::int32_t first, last; // rows; those from `rows` on are the first of a periodic lattice
+    // Where what leaves the tile goes, a row each: directions 4 and 5, 1 and 2 (HPP: 3, 1); null at a wall.
+    std::uint64_t *below[2], *above[2];
 };
 using GasKernel = void (*)(const GasView&, const GasTile&, std::uint64_t* scratch);
+// Two steps in one pass, of the rows of `first` and then of `second`, which are the same, but for a row less
+// beside other tiles. scratch: for two.
+using GasPairKernel = void (*)(const GasView&, const GasTile& first, const GasTile& second,
+                               std::uint64_t* scratch);
+
+// Directions in which rest particles hop, words of 0 to 5, from words x | y << 32 of their sites; a multiple
+// of eight.
+struct HopView {
+    const std::uint64_t* sites;
+    std::uint64_t* directions;
+    std::int64_t count;
+    std::uint32_t seed[2], step, stream;
+};
+using HopKernel = void (*)(const HopView&);
 
 // ---- sandpile (docs/automata.md 1)
 
@@ -119,24 +141,29 @@ using CreepKernel = void (*)(const RippleView&, std::int32_t first, std::int32_t
 
 inline constexpr int heap_lanes = 8;
 
-// Eight one-sided heaps without avalanches, heights [columns][heap_lanes].
+// Eight heaps, heights [places][heap_lanes]: columns 0, 1, ... and, of heaps of two sides, columns 1, 2, ...
+// of the left one, `left` places further. Doubles: whole numbers, for which no conversion is needed.
 struct HeapView {
-    std::int32_t* heights;
-    std::int64_t columns;
+    double* heights;
+    std::int64_t columns, left;                         // left: 0 where there is one side
     double retained, sticking, start_energy, roughness; // r, U, E_0, delta
+    std::int64_t steepest;                              // s_max; 0: no avalanches
     std::uint32_t seed[heap_lanes][2];
-    std::int64_t* lost; // [heap_lanes], grains that left over the end
+    std::int64_t *lost, *released; // [heap_lanes]: over the end, by avalanches
+    std::uint64_t* visits;         // of the present grain, [places][heap_lanes], zero; of general kernels
 };
 // Drops grains with numbers first_grain, first_grain + 1, ... on each.
 using HeapKernel = void (*)(const HeapView&, std::uint32_t first_grain, std::int64_t grains);
 
 struct AutomataKernels {
     GasKernel gas[gas_models][gas_variants]; // null where a model has no such variant
-    PileKernel pile[2][2];                   // heights of 1 or 2 bytes; full or unit topplings
-    PileKernel pile_odometer;                // 2 bytes, full
-    SaltationKernel saltation[3];            // interpolated, whole, stochastic
+    GasPairKernel gas_pair[gas_models][gas_variants];
+    HopKernel hops;
+    PileKernel pile[2][2];        // heights of 1 or 2 bytes; full or unit topplings
+    PileKernel pile_odometer;     // 2 bytes, full
+    SaltationKernel saltation[3]; // interpolated, whole, stochastic
     CreepKernel creep;
-    HeapKernel heap[2]; // smooth, rough
+    HeapKernel heap[2][2]; // smooth or rough; of one side without avalanches, or general
 };
 
 // Not of Isa::scalar.

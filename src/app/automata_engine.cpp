@@ -60,7 +60,7 @@ Words words_of(const scene::Scene& s) {
 // About; times of outputs are parts of it. The constants are those of large lattices.
 double sweeps_until_quiet(const scene::Sandpile& s) {
     const double side = static_cast<double>(std::max(s.columns, s.rows));
-    if (s.start == scene::PileStart::doubled) return std::max(1.0, std::ceil(std::log2(side / 32)) + 1);
+    if (s.start == scene::PileStart::doubled) return 20 * side;
     if (s.start == scene::PileStart::identity) return 0.6 * side * side;
     const double spreading = 0.2 * static_cast<double>(s.centre),
                  sinking = s.height > 3 ? 0.1 * side * side : 0;
@@ -92,7 +92,10 @@ public:
         written_ = step;
         const std::vector<analysis::Field> fields = model_.fields();
         if (picture && !fields.empty()) pictures_.write(fields.front(), caption());
-        if (maps) write_maps(fields);
+        if (maps) {
+            write_maps(fields);
+            mapped_ = step;
+        }
     }
     void add_bookmarks(std::map<std::string, std::string>& bookmarks) override {
         bookmarks["pictures"] = pictures_.bookmark();
@@ -111,6 +114,7 @@ public:
             if (!png.empty()) add_figure(table.name, table.name, png);
         }
         const std::vector<analysis::Field> fields = model_.fields();
+        if (map_steps_ != never && model_.step() != mapped_) write_maps(fields); // the end
         if (!fields.empty())
             figures_.insert(figures_.begin(), {fmt::format("{} at the end", fields.front().label),
                                                output::draw_field(fields.front(), caption(),
@@ -140,7 +144,7 @@ private:
     const Model& model_;
     Words words_;
     int width_;
-    std::int64_t picture_steps_, map_steps_, written_ = -1;
+    std::int64_t picture_steps_, map_steps_, written_ = -1, mapped_ = -1;
     output::FieldSeries pictures_;
     std::vector<output::Figure> figures_;
 };
@@ -160,6 +164,9 @@ public:
     [[nodiscard]] std::int64_t steps() const override {
         const std::int64_t steps = steps_of(scene_);
         return steps > 0 || scene_.method != scene::Engine::sandpile ? steps : most_steps;
+    }
+    [[nodiscard]] std::int64_t expected_steps() const override {
+        return std::max(step(), static_cast<std::int64_t>(duration()));
     }
     [[nodiscard]] bool finished() const override { return model_->finished(); }
     [[nodiscard]] double time() const override { return static_cast<double>(step()); }

@@ -33,26 +33,33 @@ std::uint64_t GasLattice::particles(int direction) const {
 
 namespace {
 
-simd::GasKernel kernel_for(const GasLattice& lattice, const GasRules& rules, simd::Isa isa) {
-    if (isa == simd::Isa::scalar) return nullptr;
+simd::GasVariant variant_of(const GasLattice& lattice, const GasRules& rules) {
+    if (rules.counted) return simd::GasVariant::counted;
     const bool general = !lattice.solid.empty() || rules.gravity > 0 || rules.model == GasModel::pipe;
-    const auto variant = general             ? simd::GasVariant::general
-                         : rules.alternating ? simd::GasVariant::alternating
-                                             : simd::GasVariant::plain;
-    return simd::automata_kernels(isa).gas[static_cast<int>(rules.model)][static_cast<int>(variant)];
+    return general             ? simd::GasVariant::general
+           : rules.alternating ? simd::GasVariant::alternating
+                               : simd::GasVariant::plain;
 }
 
 } // namespace
 
 GasStepper::GasStepper(const GasLattice& lattice, const GasRules& rules, const Means& means,
                        bool active_tiles)
-    : rules_(rules), means_(means), kernel_(kernel_for(lattice, rules, means.isa)),
+    : rules_(rules), means_(means), rows_(lattice.rows),
       tiles_(static_cast<std::size_t>((lattice.rows + simd::gas_tile_rows - 1) / simd::gas_tile_rows)),
       scratch_words_(padded(simd::gas_scratch_words(lattice.stride))) {
-    if (kernel_ == nullptr) return;
-    scratch_.resize(scratch_words_ * static_cast<std::size_t>(means.threads));
-    into_first_.resize(tiles_ * 2 * static_cast<std::size_t>(lattice.stride));
-    into_last_.resize(into_first_.size());
+    if (means.isa == simd::Isa::scalar) return;
+    const simd::AutomataKernels& kernels = simd::automata_kernels(means.isa);
+    const int model = static_cast<int>(rules.model), variant = static_cast<int>(variant_of(lattice, rules));
+    kernel_ = kernels.gas[model][variant];
+    const std::int32_t last_rows = rows_ - first_row(tiles_ - 1);
+    if (!active_tiles && last_rows >= 3) pair_ = kernels.gas_pair[model][variant];
+    scratch_.resize(2 * scratch_words_ * static_cast<std::size_t>(means.threads));
+    const std::size_t edge_words = tiles_ * 2 * static_cast<std::size_t>(lattice.stride);
+    for (Edges* edges : {&edges_, &second_}) {
+        edges->into_first.resize(edge_words);
+        edges->into_last.resize(edge_words);
+    }
     if (!active_tiles) return;
     live_.resize(static_cast<std::size_t>(lattice.rows) * static_cast<std::size_t>(lattice.stride) /
                      simd::segment_words,
@@ -80,11 +87,7 @@ void GasStepper::spread_activity(const GasLattice& lattice) {
     });
 }
 
-void GasStepper::step(GasLattice& lattice, std::uint32_t t) {
-    if (kernel_ == nullptr) {
-        reference::step(lattice, rules_, t);
-        return;
-    }
+simd::GasView GasStepper::view(GasLattice& lattice, std::uint32_t t) const {
     simd::GasView v{};
     for (std::size_t i = 0; i < lattice.plane.size(); ++i) v.plane[i] = lattice.plane[i].data();
     v.solid = lattice.solid.empty() ? nullptr : lattice.solid.data();
@@ -98,47 +101,131 @@ void GasStepper::step(GasLattice& lattice, std::uint32_t t) {
     v.dissipation = rules_.dissipation;
     v.gravity = rules_.gravity;
     v.roughness = rules_.roughness;
+    return v;
+}
+
+simd::GasTile GasStepper::tile(const GasLattice& lattice, std::size_t k, Edges& edges) const {
+    const std::size_t stride = static_cast<std::size_t>(lattice.stride), below = (k + tiles_ - 1) % tiles_,
+                      above = (k + 1) % tiles_;
+    simd::GasTile t{first_row(k), std::min(first_row(k + 1), rows_), {}, {}};
+    const bool on_floor = rules_.closed && k == 0, under_roof = rules_.closed && k + 1 == tiles_;
+    for (std::size_t n = 0; n < 2; ++n) {
+        t.below[n] = on_floor ? nullptr : edges.into_last.data() + (2 * below + n) * stride;
+        t.above[n] = under_roof ? nullptr : edges.into_first.data() + (2 * above + n) * stride;
+    }
+    return t;
+}
+
+std::uint64_t* GasStepper::scratch() {
+    const auto thread = means_.threads > 1 ? static_cast<std::size_t>(thread_index()) : 0;
+    return scratch_.data() + thread * 2 * scratch_words_;
+}
+
+namespace {
+
+// Directions that go up and down; one of each on the square lattice.
+struct Sideways {
+    std::size_t count, up[2], down[2];
+};
+Sideways sideways(const GasRules& rules) {
+    if (rules.directions() == 4) return {1, {1, 1}, {3, 3}};
+    return {2, {1, 2}, {4, 5}};
+}
+
+} // namespace
+
+// What crossed between the last row of a tile and the first of the next one.
+void GasStepper::put_edges(GasLattice& lattice, const Edges& edges, std::size_t lower) const {
+    const auto stride = static_cast<std::size_t>(lattice.stride);
+    const std::size_t upper = (lower + 1) % tiles_;
+    const Sideways s = sideways(rules_);
+    const auto put = [&](const Column<std::uint64_t>& from, std::size_t at, std::size_t direction,
+                         std::int32_t row) {
+        std::copy_n(from.data() + at * stride, stride,
+                    lattice.plane[direction].data() + static_cast<std::size_t>(row) * stride);
+    };
+    for (std::size_t n = 0; n < s.count; ++n) {
+        put(edges.into_last, 2 * lower + n, s.down[n], std::min(first_row(lower + 1), rows_) - 1);
+        put(edges.into_first, 2 * upper + n, s.up[n], first_row(upper));
+    }
+}
+
+void GasStepper::step(GasLattice& lattice, std::uint32_t t, const simd::CountedView* counted) {
+    if (kernel_ == nullptr) {
+        reference::step(lattice, rules_, t);
+        return;
+    }
+    simd::GasView v = view(lattice, t);
     v.live = live_.empty() ? nullptr : live_.data();
     v.occupied = live_.empty() ? nullptr : occupied_.data();
-    const std::size_t edge = 2 * static_cast<std::size_t>(lattice.stride);
-    const auto first_row = [&](std::size_t tile) {
-        return static_cast<std::int32_t>(tile) * simd::gas_tile_rows;
-    };
-    for_tiles(tiles_, means_.threads, [&](std::size_t k) {
-        const std::size_t below = (k + tiles_ - 1) % tiles_, above = (k + 1) % tiles_;
-        const bool on_floor = rules_.closed && k == 0, under_roof = rules_.closed && k + 1 == tiles_;
-        const simd::GasTile tile{first_row(k), std::min(first_row(k + 1), lattice.rows),
-                                 on_floor ? nullptr : into_last_.data() + below * edge,
-                                 under_roof ? nullptr : into_first_.data() + above * edge};
-        const auto thread = means_.threads > 1 ? static_cast<std::size_t>(thread_index()) : 0;
-        kernel_(v, tile, scratch_.data() + thread * scratch_words_);
-    });
-    // Directions that go up and down.
-    const bool square = rules_.directions() == 4;
-    const std::size_t up[] = {1, 2}, down[] = {square ? 3UL : 4UL, 5};
-    const auto put = [&](const std::uint64_t* from, std::size_t direction, std::int32_t row) {
-        const std::size_t stride = static_cast<std::size_t>(lattice.stride);
-        std::copy(from, from + stride,
-                  lattice.plane[direction].data() + static_cast<std::size_t>(row) * stride);
-    };
-    for_tiles(tiles_, means_.threads, [&](std::size_t k) {
-        for (std::size_t n = 0; n < (square ? 1U : 2U); ++n) {
-            const std::size_t at = k * edge + n * static_cast<std::size_t>(lattice.stride);
-            if (!rules_.closed || k > 0) put(into_first_.data() + at, up[n], first_row(k));
-            if (!rules_.closed || k + 1 < tiles_)
-                put(into_last_.data() + at, down[n], std::min(first_row(k + 1), lattice.rows) - 1);
-        }
-    });
+    v.counted = counted;
+    for_tiles(tiles_, means_.threads,
+              [&](std::size_t k) { kernel_(v, tile(lattice, k, edges_), scratch()); });
+    for_tiles(rules_.closed ? tiles_ - 1 : tiles_, means_.threads,
+              [&](std::size_t lower) { put_edges(lattice, edges_, lower); });
     if (!live_.empty()) spread_activity(lattice);
+}
+
+// First, every tile: two steps of its rows, but of the outermost ones, which need rows of other tiles after
+// the first step, only one. Then these two rows of each pair of neighbours.
+void GasStepper::step_twice(GasLattice& lattice, std::uint32_t t) {
+    if (pair_ == nullptr) {
+        step(lattice, t);
+        step(lattice, t + 1);
+        return;
+    }
+    const simd::GasView v = view(lattice, t), later = view(lattice, t + 1);
+    for_tiles(tiles_, means_.threads, [&](std::size_t k) {
+        const simd::GasTile first = tile(lattice, k, edges_);
+        simd::GasTile second = first;
+        // What the second step sends from within the tile into its outermost rows waits.
+        const std::size_t at = 2 * k * static_cast<std::size_t>(lattice.stride);
+        for (std::size_t n = 0; n < 2; ++n) {
+            const std::size_t row = at + n * static_cast<std::size_t>(lattice.stride);
+            if (first.below[0] != nullptr) second.below[n] = second_.into_first.data() + row;
+            if (first.above[0] != nullptr) second.above[n] = second_.into_last.data() + row;
+        }
+        second.first += first.below[0] != nullptr ? 1 : 0;
+        second.last -= first.above[0] != nullptr ? 1 : 0;
+        pair_(v, first, second, scratch());
+    });
+    for_tiles(rules_.closed ? tiles_ - 1 : tiles_, means_.threads,
+              [&](std::size_t lower) { finish_pair(lattice, later, lower); });
+}
+
+void GasStepper::finish_pair(GasLattice& lattice, const simd::GasView& later, std::size_t lower) {
+    put_edges(lattice, edges_, lower);
+    const auto stride = static_cast<std::size_t>(lattice.stride);
+    const std::size_t upper = (lower + 1) % tiles_;
+    const Sideways s = sideways(rules_);
+    const std::int32_t last = std::min(first_row(lower + 1), rows_) - 1, first = first_row(upper);
+    simd::GasTile rows{last, last + 2, {}, {}};
+    const auto row_of = [&](std::size_t direction, std::int32_t row) {
+        return lattice.plane[direction].data() + static_cast<std::size_t>(row) * stride;
+    };
+    for (std::size_t n = 0; n < 2; ++n) {
+        rows.below[n] = row_of(s.down[n], last - 1);
+        rows.above[n] = row_of(s.up[n], first + 1);
+    }
+    kernel_(later, rows, scratch());
+    for (std::size_t n = 0; n < s.count; ++n) {
+        std::copy_n(second_.into_last.data() + (2 * lower + n) * stride, stride, row_of(s.up[n], last));
+        std::copy_n(second_.into_first.data() + (2 * upper + n) * stride, stride, row_of(s.down[n], first));
+    }
 }
 
 // ---- the model
 
 void GasFlow::run(std::int64_t steps) {
-    for (std::int64_t n = 0; n < steps; ++n) {
-        stepper_.step(lattice_, static_cast<std::uint32_t>(step_));
-        ++step_;
-        look();
+    for (const std::int64_t last = step_ + steps; step_ < last; look()) {
+        const auto t = static_cast<std::uint32_t>(step_);
+        if (looks() || last - step_ < 2) {
+            stepper_.step(lattice_, t);
+            ++step_;
+        } else {
+            stepper_.step_twice(lattice_, t);
+            step_ += 2;
+        }
     }
 }
 
@@ -211,7 +298,8 @@ Facts GasFlow::facts() const {
                                 rules_.directions() == 4 ? "square" : "triangular (bricks)")},
         {"kernels", means_.isa == simd::Isa::scalar
                         ? "the scalar reference, site by site"
-                        : fmt::format("bit planes, in place, tiles of {} rows", simd::gas_tile_rows)}};
+                        : fmt::format("bit planes, in place, tiles of {} rows{}", simd::gas_tile_rows,
+                                      looks() ? "" : ", two steps in a pass")}};
     if (!lattice_.solid.empty()) {
         std::size_t solid = 0;
         for (const std::uint64_t w : lattice_.solid) solid += static_cast<std::size_t>(std::popcount(w));

@@ -49,8 +49,9 @@ private:
 
 struct GasRules {
     GasModel model = GasModel::fhp1;
-    bool alternating = false;                                  // chirality (x + y + t) mod 2
-    bool closed = false;                                       // walls below the first and above the last row
+    bool alternating = false; // chirality (x + y + t) mod 2
+    bool closed = false;      // walls below the first and above the last row
+    bool counted = false;     // of a pipe: any number of rest particles, those beyond the first elsewhere
     std::uint32_t dissipation = 0, gravity = 0, roughness = 0; // P of P/2^16
     PhiloxKey seed{};
 
@@ -68,20 +69,39 @@ public:
     // active_tiles: pass over segments of rows without particles.
     GasStepper(const GasLattice& lattice, const GasRules& rules, const Means& means,
                bool active_tiles = false);
-    void step(GasLattice& lattice, std::uint32_t t);
+    // counted: of rules with any number of rest particles.
+    void step(GasLattice& lattice, std::uint32_t t, const simd::CountedView* counted = nullptr);
+    // Two steps, in one pass over the memory where that can be done.
+    void step_twice(GasLattice& lattice, std::uint32_t t);
     void visit_all() { live_.fill(1); } // after particles were put anywhere
 
 private:
+    // Rows that one step of a tile sends to the tiles below and above, [tiles][2][stride].
+    struct Edges {
+        Column<std::uint64_t> into_first, into_last;
+    };
+
+    [[nodiscard]] simd::GasView view(GasLattice& lattice, std::uint32_t t) const;
+    [[nodiscard]] std::int32_t first_row(std::size_t tile) const {
+        return static_cast<std::int32_t>(tile) * simd::gas_tile_rows;
+    }
+    // Rows of a tile; what leaves it goes to `edges`.
+    [[nodiscard]] simd::GasTile tile(const GasLattice& lattice, std::size_t tile, Edges& edges) const;
+    [[nodiscard]] std::uint64_t* scratch();
+    void put_edges(GasLattice& lattice, const Edges& edges, std::size_t lower) const;
+    void finish_pair(GasLattice& lattice, const simd::GasView& later, std::size_t lower);
     void spread_activity(const GasLattice& lattice);
 
     GasRules rules_;
     Means means_;
-    simd::GasKernel kernel_ = nullptr; // null: the reference
+    simd::GasKernel kernel_ = nullptr;   // null: the reference
+    simd::GasPairKernel pair_ = nullptr; // null: steps are taken one by one
+    std::int32_t rows_;
     std::size_t tiles_;
     std::size_t scratch_words_;
-    Column<std::uint64_t> scratch_;                // [threads][scratch_words]
-    Column<std::uint64_t> into_first_, into_last_; // [tiles][2][stride]
-    Column<std::uint8_t> live_, occupied_;         // [rows][segments]; empty: all rows are whole
+    Column<std::uint64_t> scratch_; // [threads][2][scratch_words]
+    Edges edges_, second_;
+    Column<std::uint8_t> live_, occupied_; // [rows][segments]; empty: all rows are whole
 };
 
 class GasFlow : public Model {
@@ -105,7 +125,8 @@ public:
     [[nodiscard]] const GasLattice& lattice() const { return lattice_; }
 
 protected:
-    virtual void look() {} // after each step
+    virtual void look() {}                                     // after each step
+    [[nodiscard]] virtual bool looks() const { return false; } // look() does something
     virtual void save(ByteWriter&) const {}
     virtual void load(ByteReader&) {}
 

@@ -2,6 +2,7 @@
 
 #include "automata/spectrum.hpp"
 #include "core/bytes.hpp"
+#include "core/column.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -77,27 +78,34 @@ void HeapTable::avalanche(std::uint32_t grain) {
 void drop_on_lanes(std::span<HeapTable> heaps, simd::Isa isa, std::uint32_t first, std::int64_t grains) {
     constexpr std::size_t lanes = simd::heap_lanes;
     const HeapRules& rules = heaps.front().rules();
-    const std::size_t columns = heaps.front().heights().size();
-    std::vector<std::int32_t> heights(columns * lanes, 0);
-    std::int64_t lost[lanes] = {};
+    const std::size_t places = heaps.front().heights().size();
+    const bool general = rules.two_sided || rules.steepest > 0;
+    Column<double> heights(places * lanes, 0);
+    Column<std::uint64_t> visits(general ? places * lanes : 0, 0);
+    std::int64_t lost[lanes] = {}, released[lanes] = {};
     simd::HeapView v{heights.data(),
-                     static_cast<std::int64_t>(columns),
+                     heaps.front().columns(),
+                     rules.two_sided ? heaps.front().columns() - 1 : 0,
                      rules.retained,
                      rules.sticking,
                      rules.start_energy,
                      rules.roughness,
+                     rules.steepest,
                      {},
-                     lost};
+                     lost,
+                     released,
+                     visits.data()};
     for (std::size_t l = 0; l < lanes; ++l) { // lanes without a heap do as the first
         const HeapTable& heap = heaps[l < heaps.size() ? l : 0];
         v.seed[l][0] = heap.rules().seed[0];
         v.seed[l][1] = heap.rules().seed[1];
-        for (std::size_t x = 0; x < columns; ++x) heights[x * lanes + l] = heap.heights()[x];
+        for (std::size_t x = 0; x < places; ++x) heights[x * lanes + l] = heap.heights()[x];
     }
-    simd::automata_kernels(isa).heap[rules.roughness > 0 ? 1 : 0](v, first, grains);
+    simd::automata_kernels(isa).heap[rules.roughness > 0 ? 1 : 0][general ? 1 : 0](v, first, grains);
     for (std::size_t l = 0; l < heaps.size(); ++l) {
-        for (std::size_t x = 0; x < columns; ++x) heaps[l].heights()[x] = heights[x * lanes + l];
-        heaps[l].set_counts(heaps[l].lost() + lost[l], heaps[l].released());
+        for (std::size_t x = 0; x < places; ++x)
+            heaps[l].heights()[x] = static_cast<std::int32_t>(heights[x * lanes + l]);
+        heaps[l].set_counts(heaps[l].lost() + lost[l], heaps[l].released() + released[l]);
     }
 }
 
@@ -279,10 +287,7 @@ public:
     }
 
 private:
-    [[nodiscard]] bool in_lanes() const {
-        return means_.isa != simd::Isa::scalar && tables_.size() > 1 && heap_.steepest == 0 &&
-               heap_.sides == scene::HeapSides::one;
-    }
+    [[nodiscard]] bool in_lanes() const { return means_.isa != simd::Isa::scalar && tables_.size() > 1; }
     [[nodiscard]] std::vector<double> profile(int side) const {
         std::vector<double> mean(static_cast<std::size_t>(heap_.columns), 0);
         for (const HeapTable& table : tables_)

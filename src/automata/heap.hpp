@@ -31,6 +31,7 @@ public:
     [[nodiscard]] std::vector<std::int32_t>& heights() { return heights_; }
     [[nodiscard]] const std::vector<std::int32_t>& heights() const { return heights_; }
     [[nodiscard]] const HeapRules& rules() const { return rules_; }
+    [[nodiscard]] std::int64_t columns() const { return columns_; }
     void set_counts(std::int64_t lost, std::int64_t released) {
         lost_ = lost;
         released_ = released;
@@ -54,8 +55,7 @@ private:
     std::int64_t lost_ = 0, released_ = 0;
 };
 
-// Drops grains first, first + 1, ... on up to eight heaps of the same rules but for the seed, by kernels:
-// one-sided heaps without avalanches.
+// Drops grains first, first + 1, ... on up to eight heaps of the same rules but for the seed, by kernels.
 void drop_on_lanes(std::span<HeapTable> heaps, simd::Isa isa, std::uint32_t first, std::int64_t grains);
 
 // The foot of a heap, x measured from it: h = a + b x + c ln(x + x0), by least squares, x0 from a grid.

@@ -1,5 +1,7 @@
 #include "automata/identity.hpp"
 
+#include "core/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -119,21 +121,24 @@ IdentitySearch::IdentitySearch(Potential guess, const Means& means, bool active_
     odometer_.resize(lattice_.heights.size(), 0);
 }
 
-bool IdentitySearch::sweep() {
-    std::uint64_t topplings = 0;
-    if (sweeper_.pairs_pay()) {
-        const std::array<std::uint64_t, 2> both = sweeper_.sweep_pair(lattice_, false, &odometer_);
-        topplings = both[0] + both[1];
-        ++uncollected_;
-    } else {
-        topplings = sweeper_.sweep(lattice_, false, &odometer_);
-    }
-    topplings_ += topplings;
-    if (++uncollected_ >= sweeps_between) collect_odometer();
-    if (topplings > 0) return true;
-    if (burning_ && std::equal(before_.begin(), before_.end(), lattice_.heights.begin())) return false;
-    burn();
-    return true;
+IdentitySearch::Progress IdentitySearch::sweep(std::int64_t most) {
+    if (finished_) return {};
+    std::array<std::uint64_t, 2> topplings{};
+    const bool pair = most > 1 && sweeper_.pairs_pay();
+    if (pair)
+        topplings = sweeper_.sweep_pair(lattice_, false, &odometer_);
+    else
+        topplings[0] = sweeper_.sweep(lattice_, false, &odometer_);
+    uncollected_ += pair ? 2 : 1;
+    if (uncollected_ >= sweeps_between) collect_odometer();
+    if (topplings[0] == 0 || (pair && topplings[1] == 0)) go_on();
+    return {(topplings[0] > 0 ? 1 : 0) + (topplings[1] > 0 ? 1 : 0), topplings[0] + topplings[1]};
+}
+
+// From a stable state.
+void IdentitySearch::go_on() {
+    finished_ = burning_ && std::equal(before_.begin(), before_.end(), lattice_.heights.begin());
+    if (!finished_) burn();
 }
 
 // What has to be added is not known: twice as often every second round, and once between, to see whether that
@@ -169,11 +174,42 @@ void IdentitySearch::collect_odometer() {
     }
 }
 
-Potential IdentitySearch::potential() {
-    collect_odometer();
+Potential IdentitySearch::potential() const {
     Potential p = guess_;
-    for (std::int32_t& w : p.w) w += static_cast<std::int32_t>(burned_);
+    for (std::int32_t y = 0; y < lattice_.rows; ++y) {
+        const std::uint8_t* row = odometer_.data() + lattice_.origin() + y * lattice_.stride;
+        std::int32_t* w = p.w.data() + std::ptrdiff_t{y} * lattice_.columns;
+        for (std::int32_t x = 0; x < lattice_.columns; ++x)
+            w[x] += static_cast<std::int32_t>(burned_) - (row[2 * x] | row[2 * x + 1] << 8);
+    }
     return p;
+}
+
+void IdentitySearch::save(ByteWriter& bytes) const {
+    bytes.put(round_);
+    bytes.put(rounds_);
+    bytes.put(static_cast<std::uint8_t>(burning_));
+    for (std::int32_t y = 0; burning_ && y < lattice_.rows; ++y)
+        bytes.put_array(before_.data() + lattice_.origin() + y * lattice_.stride,
+                        2 * static_cast<std::size_t>(lattice_.columns));
+}
+
+void IdentitySearch::load(ByteReader& bytes) {
+    round_ = bytes.get<std::int64_t>();
+    rounds_ = bytes.get<std::int64_t>();
+    burning_ = bytes.get<std::uint8_t>() != 0;
+    if (!burning_) return;
+    if (round_ < 1 || round_ > most_burned || rounds_ < 0)
+        fail(Exit::io, "the state is one of another search");
+    before_ = lattice_.heights;
+    before_.fill(0);
+    std::vector<std::uint8_t> row;
+    for (std::int32_t y = 0; y < lattice_.rows; ++y) {
+        bytes.get_array(row);
+        if (row.size() != 2 * static_cast<std::size_t>(lattice_.columns))
+            fail(Exit::io, "the state is one of another lattice");
+        std::copy(row.begin(), row.end(), before_.data() + lattice_.origin() + y * lattice_.stride);
+    }
 }
 
 } // namespace sandlane::automata

@@ -26,27 +26,34 @@ class IdentitySearch {
 public:
     IdentitySearch(Potential guess, const Means& means, bool active_tiles);
 
-    // One sweep; false when the state is the identity.
-    bool sweep();
+    // What took place, one or two sweeps: those without a toppling are not counted.
+    struct Progress {
+        std::int64_t sweeps = 0;
+        std::uint64_t topplings = 0;
+    };
+    // At most so many sweeps, at least 1. Nothing is done once the search is finished.
+    Progress sweep(std::int64_t most);
+    [[nodiscard]] bool finished() const { return finished_; } // the state is the identity
     [[nodiscard]] const PileLattice& lattice() const { return lattice_; }
-    [[nodiscard]] std::uint64_t topplings() const { return topplings_; }
-    [[nodiscard]] std::int64_t burned() const { return burned_; } // times that beta was added
-    [[nodiscard]] double visited() const { return sweeper_.visited(); }
     // w of the present state.
-    [[nodiscard]] Potential potential();
+    [[nodiscard]] Potential potential() const;
+
+    // All but the potential, for a search that is made of it anew.
+    void save(ByteWriter& bytes) const;
+    void load(ByteReader& bytes);
 
 private:
+    void go_on();
     void burn();
     void collect_odometer();
 
-    Potential guess_;
+    Potential guess_; // w of the present state, without the topplings in the odometer and beta
     PileLattice lattice_;
     PileSweeper sweeper_;
     Column<std::uint8_t> odometer_, before_; // topplings since collected, heights before beta was added
     int uncollected_ = 0;                    // sweeps
     std::int64_t burned_ = 0, round_ = 1, rounds_ = 0;
-    std::uint64_t topplings_ = 0;
-    bool burning_ = false;
+    bool burning_ = false, finished_ = false;
 };
 
 } // namespace sandlane::automata

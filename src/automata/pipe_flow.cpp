@@ -1,5 +1,4 @@
-// Granular flow in a pipe (docs/automata.md 4): with one rest particle per site, a lattice gas of bit planes;
-// with any number of them, site by site.
+// Granular flow in a pipe (docs/automata.md 5), with one rest particle per site or any number of them.
 #include "automata/counted_pipe.hpp"
 #include "automata/gas.hpp"
 #include "automata/pipe_statistics.hpp"
@@ -30,6 +29,43 @@ void put_particles(std::int64_t particles, std::int64_t length, std::int64_t wid
     }
 }
 
+// On the first columns of a lattice.
+std::int64_t particles_in(const GasLattice& lattice, int planes, std::int32_t columns) {
+    std::int64_t inside = 0;
+    for (int i = 0; i < planes; ++i)
+        for (std::int32_t y = 0; y < lattice.rows; ++y) {
+            const std::uint64_t* words =
+                lattice.plane[static_cast<std::size_t>(i)].data() + std::ptrdiff_t{y} * lattice.stride;
+            for (std::int32_t w = 0; 64 * w < columns; ++w) {
+                const std::int32_t left = columns - 64 * w;
+                const std::uint64_t mask = left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1;
+                inside += std::popcount(words[w] & mask);
+            }
+        }
+    return inside;
+}
+
+// Bits of a site, those of directions 0 to 5 and the rest particle.
+unsigned state_at(const GasLattice& lattice, std::int32_t x, std::int32_t y) {
+    const std::size_t word = static_cast<std::size_t>(y) * static_cast<std::size_t>(lattice.stride) +
+                             static_cast<std::size_t>(x >> 6);
+    unsigned state = 0;
+    for (unsigned i = 0; i < 7; ++i)
+        state |= static_cast<unsigned>(lattice.plane[i][word] >> (x & 63) & 1) << i;
+    return state;
+}
+
+double particles_at(const GasLattice& lattice, std::int32_t x, std::int32_t y) {
+    return std::popcount(state_at(lattice, x, y));
+}
+
+double momentum_at(const GasLattice& lattice, std::int32_t x, std::int32_t y) {
+    const unsigned state = state_at(lattice, x, y);
+    double sum = 0;
+    for (unsigned i = 0; i < 6; ++i) sum += (state >> i & 1) != 0 ? speed[i] : 0;
+    return sum;
+}
+
 class PipeFlowModel final : public GasFlow {
 public:
     PipeFlowModel(GasLattice lattice, const GasRules& rules, const Means& means, const scene::PipeFlow& pipe)
@@ -58,30 +94,13 @@ public:
 
 protected:
     void look() override {
-        std::int64_t inside = 0;
-        for (int i = 0; i < rules_.planes(); ++i)
-            for (std::int32_t y = 0; y < lattice_.rows; ++y) {
-                const std::uint64_t* words =
-                    lattice_.plane[static_cast<std::size_t>(i)].data() + std::ptrdiff_t{y} * lattice_.stride;
-                for (std::int32_t w = 0; 64 * w < window_; ++w) {
-                    const std::int32_t left = window_ - 64 * w;
-                    const std::uint64_t mask =
-                        left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1;
-                    inside += std::popcount(words[w] & mask);
-                }
-            }
-        statistics_.add_window(static_cast<double>(inside) / (static_cast<double>(window_) * lattice_.rows));
-        if (step_ % statistics_.map_every() != 0) return;
-        const auto sum = [&](std::int64_t x, std::int64_t y, const auto& weight) {
-            double total = 0;
-            for (int i = 0; i < rules_.planes(); ++i)
-                if (lattice_.get(i, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)))
-                    total += weight(i);
-            return total;
-        };
-        statistics_.add_to_maps([&](auto x, auto y) { return sum(x, y, [](int) { return 1.0; }); },
-                                [&](auto x, auto y) { return sum(x, y, [](int i) { return speed[i]; }); });
+        statistics_.add_window(static_cast<double>(particles_in(lattice_, rules_.planes(), window_)) /
+                               (static_cast<double>(window_) * lattice_.rows));
+        if (step_ % statistics_.map_every() == 0)
+            statistics_.add_to_maps([&](auto x, auto y) { return particles_at(lattice_, x, y); },
+                                    [&](auto x, auto y) { return momentum_at(lattice_, x, y); });
     }
+    [[nodiscard]] bool looks() const override { return true; }
     void save(ByteWriter& w) const override { statistics_.save(w); }
     void load(ByteReader& r) override { statistics_.load(r); }
 
@@ -92,27 +111,29 @@ private:
 
 class CountedPipeModel final : public Model {
 public:
-    CountedPipeModel(CountedPipe pipe, const GasRules& rules, const scene::PipeFlow& scene)
-        : pipe_(std::move(pipe)), rules_(rules), window_(scene.window),
-          statistics_(scene.length, scene.width) {
+    CountedPipeModel(CountedPipe pipe, const GasRules& rules, const Means& means,
+                     const scene::PipeFlow& scene)
+        : pipe_(std::move(pipe)), means_(means), stepper_(pipe_, rules, means),
+          window_(static_cast<std::int32_t>(scene.window)), statistics_(scene.length, scene.width) {
         look();
     }
 
     void run(std::int64_t steps) override {
         for (std::int64_t n = 0; n < steps; ++n) {
-            crowded_ += automata::step(pipe_, rules_, static_cast<std::uint32_t>(step_));
+            crowded_ += stepper_.step(pipe_, static_cast<std::uint32_t>(step_));
             ++step_;
             look();
         }
     }
     [[nodiscard]] std::int64_t step() const override { return step_; }
-    [[nodiscard]] std::size_t sites() const override { return pipe_.movers.size(); }
+    [[nodiscard]] std::size_t sites() const override { return pipe_.beyond.size(); }
     [[nodiscard]] std::string serialise() const override {
         ByteWriter w;
         w.put(step_);
         w.put(crowded_);
-        w.put_array(pipe_.movers.data(), pipe_.movers.size());
-        w.put_array(pipe_.resting.data(), pipe_.resting.size());
+        for (const Column<std::uint64_t>& plane : pipe_.lattice.plane)
+            w.put_array(plane.data(), plane.size());
+        w.put_array(pipe_.beyond.data(), pipe_.beyond.size());
         statistics_.save(w);
         return w.bytes();
     }
@@ -120,18 +141,28 @@ public:
         ByteReader r(state);
         const auto step = r.get<std::int64_t>(), crowded = r.get<std::int64_t>();
         CountedPipe read = pipe_;
-        r.get_array(read.movers);
-        r.get_array(read.resting);
-        if (read.movers.size() != sites() || read.resting.size() != sites())
-            fail(Exit::io, "the state is one of another pipe");
+        const auto get = [&](auto& column) {
+            const std::size_t expected = column.size();
+            r.get_array(column);
+            if (column.size() != expected) fail(Exit::io, "the state is one of another pipe");
+        };
+        for (Column<std::uint64_t>& plane : read.lattice.plane) get(plane);
+        get(read.beyond);
         statistics_.load(r);
+        for (std::int32_t y = 0; y < rows(); ++y)
+            for (std::int32_t x = 0; x < columns(); ++x) read.set_resting(x, y, read.resting(x, y));
         pipe_ = std::move(read);
         step_ = step;
         crowded_ = crowded;
     }
     [[nodiscard]] std::vector<Quantity> quantities() const override {
-        return {{"movers", "1", {pipe_.movers.begin(), pipe_.movers.end()}},
-                {"resting", "1", {pipe_.resting.begin(), pipe_.resting.end()}}};
+        Quantity movers{"movers", "1", {}}, resting{"resting", "1", {}};
+        for (std::int32_t y = 0; y < rows(); ++y)
+            for (std::int32_t x = 0; x < columns(); ++x) {
+                movers.values.push_back(state_at(pipe_.lattice, x, y) & 63);
+                resting.values.push_back(static_cast<double>(pipe_.resting(x, y)));
+            }
+        return {movers, resting};
     }
     [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override {
         return {{"step", "1"},          {"particles", "1"}, {"moving", "1"},
@@ -139,8 +170,8 @@ public:
     }
     [[nodiscard]] std::vector<double> log_row() const override {
         double flow = 0;
-        for (std::int64_t y = 0; y < pipe_.width; ++y)
-            for (std::int64_t x = 0; x < pipe_.length; ++x) flow += momentum(x, y);
+        for (std::size_t i = 0; i < 6; ++i)
+            flow += speed[i] * static_cast<double>(pipe_.lattice.particles(static_cast<int>(i)));
         const auto particles = static_cast<double>(pipe_.particles());
         return {static_cast<double>(step_),          particles,
                 static_cast<double>(pipe_.moving()), particles > 0 ? flow / particles : 0,
@@ -150,49 +181,48 @@ public:
         Field density{"density",
                       "particles per site",
                       "",
-                      static_cast<std::size_t>(pipe_.length),
-                      static_cast<std::size_t>(pipe_.width),
+                      static_cast<std::size_t>(columns()),
+                      static_cast<std::size_t>(rows()),
                       {},
                       false,
                       0};
-        for (std::int64_t y = 0; y < pipe_.width; ++y)
-            for (std::int64_t x = 0; x < pipe_.length; ++x) density.values.push_back(particles(x, y));
+        for (std::int32_t y = 0; y < rows(); ++y)
+            for (std::int32_t x = 0; x < columns(); ++x) density.values.push_back(particles(x, y));
         return {density};
     }
     [[nodiscard]] std::vector<Field> final_fields() const override { return statistics_.fields(); }
     [[nodiscard]] std::vector<Table> final_tables() const override { return statistics_.tables(); }
     [[nodiscard]] Facts facts() const override {
         return {{"model", "pipe flow, any number of rest particles"},
-                {"lattice", fmt::format("{} x {} sites, triangular (bricks)", pipe_.length, pipe_.width)},
-                {"kernels", "site by site, on one thread; there is no vector kernel"}};
+                {"lattice", fmt::format("{} x {} sites, triangular (bricks)", columns(), rows())},
+                {"kernels",
+                 means_.isa == simd::Isa::scalar
+                     ? "the scalar reference, site by site"
+                     : fmt::format("bit planes, in place, tiles of {} rows; lists of sites where several "
+                                   "particles rest",
+                                   simd::gas_tile_rows)}};
     }
 
 private:
-    [[nodiscard]] std::size_t at(std::int64_t x, std::int64_t y) const {
-        return static_cast<std::size_t>(y * pipe_.length + x);
-    }
-    [[nodiscard]] double particles(std::int64_t x, std::int64_t y) const {
-        return std::popcount(pipe_.movers[at(x, y)]) + pipe_.resting[at(x, y)];
-    }
-    [[nodiscard]] double momentum(std::int64_t x, std::int64_t y) const {
-        double sum = 0;
-        for (int i = 0; i < 6; ++i)
-            if ((pipe_.movers[at(x, y)] >> i & 1) != 0) sum += speed[i];
-        return sum;
+    [[nodiscard]] std::int32_t columns() const { return pipe_.lattice.columns; }
+    [[nodiscard]] std::int32_t rows() const { return pipe_.lattice.rows; }
+    [[nodiscard]] double particles(std::int32_t x, std::int32_t y) const {
+        return particles_at(pipe_.lattice, x, y) + pipe_.beyond[pipe_.site(x, y)];
     }
     void look() {
-        double inside = 0;
-        for (std::int64_t y = 0; y < pipe_.width; ++y)
-            for (std::int64_t x = 0; x < window_; ++x) inside += particles(x, y);
-        statistics_.add_window(inside / static_cast<double>(window_ * pipe_.width));
+        std::int64_t inside = particles_in(pipe_.lattice, 7, window_);
+        for (std::int32_t y = 0; y < rows(); ++y)
+            for (std::int32_t x = 0; x < window_; ++x) inside += pipe_.beyond[pipe_.site(x, y)];
+        statistics_.add_window(static_cast<double>(inside) / (static_cast<double>(window_) * rows()));
         if (step_ % statistics_.map_every() == 0)
             statistics_.add_to_maps([&](auto x, auto y) { return particles(x, y); },
-                                    [&](auto x, auto y) { return momentum(x, y); });
+                                    [&](auto x, auto y) { return momentum_at(pipe_.lattice, x, y); });
     }
 
     CountedPipe pipe_;
-    GasRules rules_;
-    std::int64_t window_;
+    Means means_;
+    CountedStepper stepper_;
+    std::int32_t window_;
     PipeStatistics statistics_;
     std::int64_t step_ = 0, crowded_ = 0;
 };
@@ -211,24 +241,20 @@ std::unique_ptr<Model> make_pipe_flow(const scene::Scene& scene, const Means& me
     rules.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
     const std::int64_t particles =
         std::llround(s.density * static_cast<double>(s.length) * static_cast<double>(s.width));
+    const auto place_in = [](GasLattice& lattice) {
+        return [&lattice](std::int32_t x, std::int32_t y, int bit) {
+            const bool is_free = !lattice.get(bit, x, y);
+            lattice.set(bit, x, y, true);
+            return is_free;
+        };
+    };
     if (s.variant == scene::PipeVariant::counted_rest) {
-        CountedPipe pipe(s.length, s.width);
-        put_particles(particles, s.length, s.width, 6, rules.seed,
-                      [&](std::int32_t x, std::int32_t y, int bit) {
-                          std::uint8_t& movers = pipe.movers[static_cast<std::size_t>(y * s.length + x)];
-                          const auto wanted = static_cast<std::uint8_t>(1 << bit);
-                          const bool is_free = (movers & wanted) == 0;
-                          movers |= wanted;
-                          return is_free;
-                      });
-        return std::make_unique<CountedPipeModel>(std::move(pipe), rules, s);
+        CountedPipe pipe(static_cast<std::int32_t>(s.length), static_cast<std::int32_t>(s.width));
+        put_particles(particles, s.length, s.width, 6, rules.seed, place_in(pipe.lattice));
+        return std::make_unique<CountedPipeModel>(std::move(pipe), rules, means, s);
     }
     GasLattice lattice(static_cast<std::int32_t>(s.length), static_cast<std::int32_t>(s.width));
-    put_particles(particles, s.length, s.width, 7, rules.seed, [&](std::int32_t x, std::int32_t y, int bit) {
-        const bool is_free = !lattice.get(bit, x, y);
-        lattice.set(bit, x, y, true);
-        return is_free;
-    });
+    put_particles(particles, s.length, s.width, 7, rules.seed, place_in(lattice));
     return std::make_unique<PipeFlowModel>(std::move(lattice), rules, means, s);
 }
 

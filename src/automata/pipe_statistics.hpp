@@ -22,8 +22,8 @@ public:
     template <class Particles, class Momentum>
     void add_to_maps(const Particles& particles, const Momentum& momentum) {
         std::vector<double> columns(static_cast<std::size_t>(length_), 0);
-        for (std::int64_t y = 0; y < width_; ++y)
-            for (std::int64_t x = 0; x < length_; ++x) {
+        for (std::int32_t y = 0; y < width_; ++y)
+            for (std::int32_t x = 0; x < length_; ++x) {
                 const double n = particles(x, y);
                 columns[static_cast<std::size_t>(x)] += n / static_cast<double>(width_);
                 row_particles_[static_cast<std::size_t>(y)] += n;

@@ -9,7 +9,9 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sandlane::automata {
@@ -110,9 +112,12 @@ struct Potential {
     }
 };
 
+class IdentitySearch; // identity.hpp
+
 class SandpileModel final : public Model {
 public:
     SandpileModel(const scene::Scene& scene, const Means& means);
+    ~SandpileModel() override;
 
     void run(std::int64_t steps) override;
     [[nodiscard]] std::int64_t step() const override { return step_; }
@@ -135,7 +140,9 @@ public:
 private:
     void sweep(std::int64_t most);
     bool count_sweep(std::uint64_t topplings);
-    void search();
+    [[nodiscard]] std::vector<std::pair<std::int32_t, std::int32_t>> levels() const;
+    void search(std::int64_t most);
+    void restore_search(ByteReader& bytes);
     void drop_grain();
     void relax();
 
@@ -148,7 +155,10 @@ private:
     std::int64_t step_ = 0;
     std::uint64_t topplings_ = 0;
     bool stable_ = false;
-    Potential potential_;             // start "identity-doubled": of the last identity found
+    // Start "identity-doubled": levels done, the last identity, and the search for the next one.
+    std::size_t level_ = 0;
+    Potential potential_;
+    std::unique_ptr<IdentitySearch> search_;
     int phase_ = 0;                   // identity: 1 when 6 - (6)^ relaxes
     std::vector<LogBins> statistics_; // of size, area, duration, radius
 };

@@ -32,12 +32,14 @@ SandpileModel::SandpileModel(const scene::Scene& scene, const Means& means)
     lattice_.set(lattice_.columns / 2, lattice_.rows / 2, height + static_cast<std::uint32_t>(pile_.centre));
 }
 
+SandpileModel::~SandpileModel() = default;
+
 void SandpileModel::run(std::int64_t steps) {
     if (pile_.drive != scene::PileDrive::none && !stable_) relax();
     const std::int64_t last = step_ + steps;
     while (step_ < last && !finished()) {
         if (pile_.start == scene::PileStart::doubled)
-            search();
+            search(last - step_);
         else if (pile_.drive == scene::PileDrive::none)
             sweep(last - step_);
         else
@@ -73,23 +75,31 @@ bool SandpileModel::count_sweep(std::uint64_t topplings) {
     return false;
 }
 
-// A step is a lattice of twice the size.
-void SandpileModel::search() {
+// From the smallest lattice of the search to the whole one.
+std::vector<std::pair<std::int32_t, std::int32_t>> SandpileModel::levels() const {
     std::vector<std::pair<std::int32_t, std::int32_t>> sizes = {{lattice_.columns, lattice_.rows}};
     while (std::max(sizes.back().first, sizes.back().second) > smallest_search)
         sizes.push_back({(sizes.back().first + 1) / 2, (sizes.back().second + 1) / 2});
-    const auto level = static_cast<std::size_t>(step_);
-    const auto [columns, rows] = sizes[sizes.size() - 1 - level];
-    IdentitySearch search(stretched(potential_, columns, rows, means_.threads), means_, pile_.active_tiles);
-    while (search.sweep()) {
-    }
-    topplings_ += search.topplings();
-    potential_ = search.potential();
-    ++step_;
-    stable_ = level + 1 == sizes.size();
-    if (!stable_) return;
-    for (std::int32_t y = 0; y < rows; ++y)
-        for (std::int32_t x = 0; x < columns; ++x) lattice_.set(x, y, search.lattice().get(x, y));
+    std::reverse(sizes.begin(), sizes.end());
+    return sizes;
+}
+
+void SandpileModel::search(std::int64_t most) {
+    const auto sizes = levels();
+    const auto [columns, rows] = sizes[level_];
+    if (search_ == nullptr)
+        search_ = std::make_unique<IdentitySearch>(stretched(potential_, columns, rows, means_.threads),
+                                                   means_, pile_.active_tiles);
+    const IdentitySearch::Progress progress = search_->sweep(most);
+    step_ += progress.sweeps;
+    topplings_ += progress.topplings;
+    if (!search_->finished()) return;
+    potential_ = search_->potential();
+    stable_ = ++level_ == sizes.size();
+    if (stable_)
+        for (std::int32_t y = 0; y < rows; ++y)
+            for (std::int32_t x = 0; x < columns; ++x) lattice_.set(x, y, search_->lattice().get(x, y));
+    search_.reset();
 }
 
 void SandpileModel::relax() {
@@ -129,9 +139,14 @@ std::string SandpileModel::serialise() const {
                     static_cast<std::size_t>(lattice_.columns * lattice_.bytes));
     for (const LogBins& bins : statistics_) bins.save(w);
     if (pile_.start == scene::PileStart::doubled) {
-        w.put(potential_.columns);
-        w.put(potential_.rows);
-        w.put_array(potential_.w.data(), potential_.w.size());
+        // Of the search as far as it is, or of the last identity.
+        const Potential p = search_ != nullptr ? search_->potential() : potential_;
+        w.put(static_cast<std::uint64_t>(level_));
+        w.put(static_cast<std::uint8_t>(search_ != nullptr));
+        w.put(p.columns);
+        w.put(p.rows);
+        w.put_array(p.w.data(), p.w.size());
+        if (search_ != nullptr) search_->save(w);
     }
     return w.bytes();
 }
@@ -151,14 +166,7 @@ void SandpileModel::restore(const std::string& state) {
         std::copy(row.begin(), row.end(), read.heights.data() + read.origin() + y * read.stride);
     }
     for (LogBins& bins : statistics_) bins.load(r);
-    if (pile_.start == scene::PileStart::doubled) {
-        Potential p{r.get<std::int32_t>(), r.get<std::int32_t>(), {}};
-        r.get_array(p.w);
-        if (p.columns < 0 || p.columns > lattice_.columns || p.rows < 0 || p.rows > lattice_.rows ||
-            p.w.size() != static_cast<std::size_t>(p.columns) * static_cast<std::size_t>(p.rows))
-            fail(Exit::io, "the state is one of another lattice");
-        potential_ = std::move(p);
-    }
+    if (pile_.start == scene::PileStart::doubled) restore_search(r);
     read.other = read.heights;
     lattice_ = std::move(read);
     sweeper_.visit_all();
@@ -166,6 +174,31 @@ void SandpileModel::restore(const std::string& state) {
     topplings_ = topplings;
     phase_ = phase;
     stable_ = stable;
+}
+
+void SandpileModel::restore_search(ByteReader& r) {
+    const auto level = r.get<std::uint64_t>();
+    const bool searching = r.get<std::uint8_t>() != 0;
+    Potential p{r.get<std::int32_t>(), r.get<std::int32_t>(), {}};
+    r.get_array(p.w);
+    // The size of the level in work, or of the last one that is done.
+    const auto sizes = levels();
+    std::pair<std::int32_t, std::int32_t> expected{0, 0};
+    const std::uint64_t size = searching ? level : level - 1; // wraps around before the first
+    if (size < sizes.size()) expected = sizes[size];
+    if (level > sizes.size() || (searching && level == sizes.size()) ||
+        std::pair{p.columns, p.rows} != expected ||
+        p.w.size() != static_cast<std::size_t>(p.columns) * static_cast<std::size_t>(p.rows))
+        fail(Exit::io, "the state is one of another lattice");
+    std::unique_ptr<IdentitySearch> search;
+    if (searching) {
+        search = std::make_unique<IdentitySearch>(p, means_, pile_.active_tiles);
+        search->load(r);
+        p = {};
+    }
+    search_ = std::move(search);
+    potential_ = std::move(p);
+    level_ = static_cast<std::size_t>(level);
 }
 
 std::vector<Quantity> SandpileModel::quantities() const {

@@ -91,8 +91,7 @@ const Table<Sandpile>& sandpile_table() {
             .choice("start", &Sandpile::start, {"uniform", "identity", "identity-doubled"},
                     "all sites of one height; or the construction of the identity of the group of recurrent "
                     "states: relax 6 grains everywhere, relax again what is missing from them; or that "
-                    "identity from "
-                    "those of lattices of half the size, a step for each, which is much faster")
+                    "identity from those of lattices of half the size, which is much faster")
             .integer("height", &Sandpile::height, between(0, 65535), "uniform: grains of each site")
             .integer("centre", &Sandpile::centre, between(0, 65535),
                      "uniform: more grains on the site in the middle")

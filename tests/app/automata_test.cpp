@@ -13,6 +13,8 @@ namespace {
 
 const std::map<std::string, std::string> scenes = {
     {"sandpile", "method = \"sandpile\"\n[sandpile]\ncolumns = 70\nrows = 40\ncentre = 9000\n"},
+    {"identity",
+     "method = \"sandpile\"\n[sandpile]\ncolumns = 70\nrows = 40\nstart = \"identity-doubled\"\n"},
     {"avalanches",
      "method = \"sandpile\"\n[sandpile]\ncolumns = 30\nrows = 30\ndrive = \"random\"\nsteps = 3000\n"},
     {"heap", "method = \"heap\"\n[heap]\ncolumns = 60\nroughness = 0.5\nheaps = 5\nsteps = 700\n"},

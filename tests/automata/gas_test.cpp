@@ -94,13 +94,39 @@ TEST(Gas, ManyThreadsChangeNothing) {
     EXPECT_TRUE(same(one, many));
 }
 
+constexpr std::int32_t tile = simd::gas_tile_rows;
+
 TEST(Gas, TilesOfRowsMeet) {
     for (const GasModel model : {GasModel::hpp, GasModel::fhp1, GasModel::fhp3}) {
-        expect_same_bits({model, 70, 64, false, false, false, 0, 0, 0}, 4);
-        expect_same_bits({model, 70, 98, false, false, true, 0, 0, 0}, 4);
-        expect_same_bits({model, 70, 33, true, false, false, 0, 0, 1}, 4);
+        expect_same_bits({model, 70, 2 * tile, false, false, false, 0, 0, 0}, 4);
+        expect_same_bits({model, 70, 3 * tile + 2, false, false, true, 0, 0, 0}, 4);
+        expect_same_bits({model, 70, tile + 1, true, false, false, 0, 0, 1}, 4);
     }
-    expect_same_bits({GasModel::fhp1, 130, 66, false, true, false, 0, 0, 0}, 6);
+    expect_same_bits({GasModel::fhp1, 130, 2 * tile + 2, false, true, false, 0, 0, 0}, 6);
+}
+
+// Two steps in a pass: tiles of every height that allows it, and some that do not.
+TEST(Gas, PairsOfStepsAreTwoSteps) {
+    for (const GasModel model : {GasModel::hpp, GasModel::fhp1, GasModel::fhp2, GasModel::fhp3})
+        for (const std::int32_t rows : {2, 4, tile, tile + 2, tile + 4, 2 * tile, 2 * tile + 6, 2 * tile + 3})
+            for (const bool closed : {false, true}) {
+                if (!closed && rows % 2 != 0) continue;
+                const Case c{model, 150,    rows, closed,
+                             false, closed, 0,    closed && model != GasModel::hpp ? .2 : 0,
+                             .4};
+                const GasRules rules = rules_of(c);
+                const GasLattice start = lattice_of(c, 0.3);
+                GasLattice expected = start;
+                for (std::uint32_t t = 0; t < 6; ++t) reference::step(expected, rules, t);
+                for (const simd::Isa isa : simd::available_isas())
+                    for (const int threads : {1, 3}) {
+                        GasLattice lattice = start;
+                        GasStepper stepper(lattice, rules, {isa, threads});
+                        for (std::uint32_t t = 0; t < 6; t += 2) stepper.step_twice(lattice, t);
+                        EXPECT_TRUE(same(lattice, expected)) << simd::isa_name(isa) << " model "
+                                                             << static_cast<int>(model) << " rows " << rows;
+                    }
+            }
 }
 
 TEST(Gas, PipesOfEveryShapeAndProbability) {
@@ -278,59 +304,74 @@ TEST(Gas, GoesToFermiDirac) {
 
 // ---- viscosity
 
-// A shear wave u_x ~ sin(k y) decays as exp(-nu k^2 t); rows are sqrt(3)/2 apart. In two dimensions the
-// viscosity is above that of Boltzmann by a logarithm of the size (long-time tails), relatively more the
-// smaller it is.
-TEST(Gas, ShearWavesDecayWithTheViscosity) {
-    struct Expected {
-        GasModel model;
-        double viscosity, most; // of Boltzmann at d = 0.2; times as much at most
-    };
-    const Expected all[] = {
-        {GasModel::fhp1, .68880208, 1.1}, {GasModel::fhp2, .26877520, 1.2}, {GasModel::fhp3, .14816434, 1.3}};
-    constexpr std::int32_t columns = 8192, rows = 64;
-    for (const auto& [model, viscosity, most] : all) {
-        const Case c{model, columns, rows, false, false, false, 0, 0, 0};
-        const GasRules rules = rules_of(c);
-        GasLattice lattice(columns, rows);
-        const int bits = rules.planes();
-        const double density = 0.2 * bits;
-        for (std::int32_t y = 0; y < rows; ++y) {
-            const auto n = fermi_dirac(density, 0.1 * density * std::sin(2 * M_PI * y / rows), 0, bits);
-            for (std::int32_t x = 0; x < columns; ++x)
-                for (int i = 0; i < bits; ++i) {
-                    const PhiloxCounter r =
-                        philox({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-                                static_cast<std::uint32_t>(i), 0},
-                               {7, 7});
-                    if (r[0] * 0x1p-32 < n[static_cast<std::size_t>(i)]) lattice.set(i, x, y, true);
-                }
-        }
-        const auto amplitude = [&] {
-            constexpr double c_x[] = {1, 0.5, -0.5, -1, -0.5, 0.5};
-            double sum = 0;
-            for (int i = 0; i < 6; ++i)
-                for (std::int32_t y = 0; y < rows; ++y) {
-                    const std::uint64_t* words = lattice.plane[static_cast<std::size_t>(i)].data() +
-                                                 std::ptrdiff_t{y} * lattice.stride;
-                    std::int64_t count = 0;
-                    for (std::int32_t w = 0; w < lattice.words; ++w) count += std::popcount(words[w]);
-                    sum += c_x[i] * static_cast<double>(count) * std::sin(2 * M_PI * y / rows);
-                }
-            return sum;
-        };
-        GasStepper stepper(lattice, rules, {simd::available_isas().back(), 1});
-        const double k = 2 * M_PI / (rows * std::sqrt(0.75)), half_life = std::log(2) / (viscosity * k * k);
-        std::uint32_t t = 0;
-        for (; t < 40; ++t) stepper.step(lattice, t); // to the local equilibrium
-        const double before = amplitude();
-        const auto last = t + static_cast<std::uint32_t>(half_life);
-        for (; t < last; ++t) stepper.step(lattice, t);
-        const double found = std::log(before / amplitude()) / (k * k * std::floor(half_life));
-        // Thermal noise of both amplitudes: 1 % and 2 %, over a logarithm of 2.
-        EXPECT_GT(found, 0.92 * viscosity) << static_cast<int>(model);
-        EXPECT_LT(found, most * viscosity) << static_cast<int>(model);
+// Viscosity by a shear wave u_x ~ sin(k y), which decays as exp(-nu k^2 t); rows are sqrt(3)/2 apart. `guess`
+// sets for how long: half the wave is gone then. Thermal noise of its amplitude is 0.3 % in the widest
+// lattices below, which is 0.5 % of the viscosity.
+double viscosity(GasModel model, double occupation, std::int32_t rows, double guess) {
+    constexpr std::int32_t columns = 16384;
+    const Case c{model, columns, rows, false, false, false, 0, 0, 0};
+    const GasRules rules = rules_of(c);
+    GasLattice lattice(columns, rows);
+    const int bits = rules.planes();
+    const double density = occupation * bits;
+    for (std::int32_t y = 0; y < rows; ++y) {
+        const auto n = fermi_dirac(density, 0.1 * density * std::sin(2 * M_PI * y / rows), 0, bits);
+        for (std::int32_t x = 0; x < columns; ++x)
+            for (int i = 0; i < bits; ++i) {
+                const PhiloxCounter r = philox({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                                                static_cast<std::uint32_t>(i), 0},
+                                               {7, 7});
+                if (r[0] * 0x1p-32 < n[static_cast<std::size_t>(i)]) lattice.set(i, x, y, true);
+            }
     }
+    const auto amplitude = [&] {
+        constexpr double c_x[] = {1, 0.5, -0.5, -1, -0.5, 0.5};
+        double sum = 0;
+        for (int i = 0; i < 6; ++i)
+            for (std::int32_t y = 0; y < rows; ++y) {
+                const std::uint64_t* words =
+                    lattice.plane[static_cast<std::size_t>(i)].data() + std::ptrdiff_t{y} * lattice.stride;
+                std::int64_t count = 0;
+                for (std::int32_t w = 0; w < lattice.words; ++w) count += std::popcount(words[w]);
+                sum += c_x[i] * static_cast<double>(count) * std::sin(2 * M_PI * y / rows);
+            }
+        return sum;
+    };
+    GasStepper stepper(lattice, rules, {simd::available_isas().back(), 1});
+    const double k = 2 * M_PI / (rows * std::sqrt(0.75));
+    std::uint32_t t = 0;
+    for (; t < 40; t += 2) stepper.step_twice(lattice, t); // to the local equilibrium
+    const double before = amplitude();
+    const auto pairs = static_cast<std::uint32_t>(std::log(2) / (guess * k * k) / 2);
+    for (const std::uint32_t last = t + 2 * pairs; t < last; t += 2) stepper.step_twice(lattice, t);
+    return std::log(before / amplitude()) / (k * k * 2 * pairs);
+}
+
+// Half full, flows do not carry each other (g = 0) and fluctuations do not add to the viscosity: that of
+// Boltzmann, for the rule whose collisions leave no invariants but mass and momentum. Measured, over three
+// starts and 32 to 128 rows: 1.015 +- 0.003 times as much.
+TEST(Gas, ViscosityOfBoltzmannAtHalfFilling) {
+    EXPECT_NEAR(viscosity(GasModel::fhp3, 0.5, 64, 0.075) / 0.075, 1, 0.03);
+}
+
+// Elsewhere fluctuations carry momentum too (long-time tails): the viscosity is that of Boltzmann and a part
+// that grows with the logarithm of the size. The part of shear modes alone, g^2 <u^2>/(16 pi nu^2) ln 4, is
+// 0.05 from 32 to 128 rows at d = 0.2 (<u^2>: of the area of a site, 3 d (1 - d)/rho^2 sqrt(3)/2); sound adds
+// to it. Measured over three starts: 1.116 +- 0.014 of Boltzmann's with 32 rows, 1.185 with 64, 1.226 +-
+// 0.009 with 128.
+TEST(Gas, ViscosityGrowsWithTheLogarithmOfTheSize) {
+    constexpr double boltzmann = .14816434;
+    const double small = viscosity(GasModel::fhp3, 0.2, 32, boltzmann) / boltzmann,
+                 large = viscosity(GasModel::fhp3, 0.2, 128, boltzmann) / boltzmann;
+    EXPECT_GT(large - small, 0.05);
+    EXPECT_LT(large - small, 0.18);
+    EXPECT_NEAR(large, 1.226, 0.04);
+}
+
+// Of the other rules by the same means, three starts: 1.044 +- 0.016 and 1.110 +- 0.009 at d = 0.2, 128 rows.
+TEST(Gas, ViscosityOfOtherRules) {
+    EXPECT_NEAR(viscosity(GasModel::fhp1, 0.2, 128, .68880208) / .68880208, 1.044, 0.07);
+    EXPECT_NEAR(viscosity(GasModel::fhp2, 0.2, 128, .26877520) / .26877520, 1.110, 0.04);
 }
 
 } // namespace

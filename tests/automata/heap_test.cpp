@@ -68,23 +68,45 @@ TEST(Heap, KeepsOrLosesEveryGrain) {
 }
 
 TEST(Heap, LanesAreTheHeaps) {
-    for (const double rough : {0.0, 0.7})
-        for (const std::size_t count : {1U, 5U, 8U})
-            for (const simd::Isa isa : simd::available_isas()) {
-                if (isa == simd::Isa::scalar) continue;
-                std::vector<HeapTable> expected, found;
-                for (std::uint32_t n = 0; n < count; ++n)
-                    expected.emplace_back(25, HeapRules{.55, 1.3, .2, rough, 0, false, {n, 5}});
-                found = expected;
-                for (HeapTable& heap : expected)
-                    for (std::uint32_t g = 0; g < 1500; ++g) heap.drop(g);
-                drop_on_lanes(found, isa, 0, 700);
-                drop_on_lanes(found, isa, 700, 800);
-                for (std::size_t n = 0; n < count; ++n) {
-                    EXPECT_EQ(found[n].heights(), expected[n].heights()) << simd::isa_name(isa);
-                    EXPECT_EQ(found[n].lost(), expected[n].lost());
+    for (const bool two : {false, true})
+        for (const std::int64_t steepest : {0, 2, 4})
+            for (const double rough : {0.0, 0.7})
+                for (const std::size_t count : {1U, 5U, 8U}) {
+                    std::vector<HeapTable> expected;
+                    for (std::uint32_t n = 0; n < count; ++n)
+                        expected.emplace_back(25, HeapRules{.55, 1.3, .2, rough, steepest, two, {n, 5}});
+                    const std::vector<HeapTable> start = expected;
+                    for (HeapTable& heap : expected)
+                        for (std::uint32_t g = 0; g < 1500; ++g) heap.drop(g);
+                    for (const simd::Isa isa : simd::available_isas()) {
+                        if (isa == simd::Isa::scalar) continue;
+                        std::vector<HeapTable> found = start;
+                        drop_on_lanes(found, isa, 0, 700);
+                        drop_on_lanes(found, isa, 700, 800);
+                        for (std::size_t n = 0; n < count; ++n) {
+                            EXPECT_EQ(found[n].heights(), expected[n].heights())
+                                << simd::isa_name(isa) << " sides " << two + 1 << " steepest " << steepest;
+                            EXPECT_EQ(found[n].lost(), expected[n].lost());
+                            EXPECT_EQ(found[n].released(), expected[n].released());
+                        }
+                    }
                 }
-            }
+}
+
+// Of every number of columns: the last ones are looked at one by one.
+TEST(Heap, LanesOfAllLengths) {
+    for (const std::int64_t columns : {2, 3, 8, 9, 10, 17, 40})
+        for (const bool two : {false, true}) {
+            std::vector<HeapTable> expected;
+            for (std::uint32_t n = 0; n < 8; ++n)
+                expected.emplace_back(columns, HeapRules{.5, 1.5, 0, .5, 3, two, {n, 1}});
+            std::vector<HeapTable> found = expected;
+            for (HeapTable& heap : expected)
+                for (std::uint32_t g = 0; g < 800; ++g) heap.drop(g);
+            drop_on_lanes(found, simd::available_isas().back(), 0, 800);
+            for (std::size_t n = 0; n < 8; ++n)
+                EXPECT_EQ(found[n].heights(), expected[n].heights()) << columns;
+        }
 }
 
 TEST(Heap, TwoSidesAreAlike) {
