@@ -219,7 +219,16 @@ TEST(EdmdEvents, VibratingWall) {
         });
     }
     // It leaves the wall where it stands.
-    EXPECT_NEAR(laws::oscillating_wall_time(0, 2, -1, {0.1, 10 / (2 * pi), 0}, 0, never), 3.950806240323, 1e-10);
+    EXPECT_NEAR(laws::oscillating_wall_time(0, 2, -1, {0.1, 10 / (2 * pi), 0}, 0, never), 3.950806240323,
+                1e-10);
+}
+
+// Without gravity what has left the wall never meets it again, and that is found at once.
+TEST(EdmdEvents, VibratingWallOutOfReach) {
+    EXPECT_EQ(laws::oscillating_wall_time(1, 0.5, 0, {0.1, 1, 0}, 0, never), never);
+    EXPECT_EQ(laws::oscillating_wall_time(1, 0, 0, {0.1, 1, 0}, 0, never), never);
+    const double t = laws::oscillating_wall_time(1000, -1, 0, {0.1, 1, 0}, 0, never);
+    EXPECT_NEAR(1000 - t, 0.1 * std::sin(2 * std::numbers::pi * t), 1e-9);
 }
 
 // The bouncing ball: without a rule the bounces accumulate at t = 20, and the run says so; with a contact

@@ -82,7 +82,7 @@ TEST(EdmdGas, RateAndEquationOfState) {
         gas.run(200000);
         const double t = gas.time() - start, g = laws::contact_correlation(p.dimension, p.phi);
         const double rate = 2 * 200000 / (n * t),
-                     z = 1 + (gas.tally().virial - virial) / (p.dimension * n * t);
+                     z = 1 + (gas.tally().virial - virial) / (p.dimension * static_cast<double>(n) * t);
         analysis::HardGas theory;
         theory.dimension = p.dimension;
         theory.density = n / s.volume();
@@ -121,7 +121,8 @@ TEST(EdmdGas, NearClosestPacking) {
         gas.run(20000);
         const double start = gas.time(), virial = gas.tally().virial;
         gas.run(100000);
-        const double z = 1 + (gas.tally().virial - virial) / (p.dimension * p.n * (gas.time() - start));
+        const double z = 1 + (gas.tally().virial - virial) /
+                                 (p.dimension * static_cast<double>(p.n) * (gas.time() - start));
         const double leading = p.dimension / (1 - p.phi / p.closest);
         EXPECT_NEAR(z / leading, 1, 0.03);
         EXPECT_GT(gas.tally().smallest_gap, -1e-13);
