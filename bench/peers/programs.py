@@ -5,10 +5,18 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 
 import bed
 import measure
 from dump import loop_rate
+
+
+# The kernel counts what a process held before it became another program: the one that starts the program must be small.
+starter = """import os, resource, sys
+code = os.spawnvp(os.P_WAIT, sys.argv[2], sys.argv[2:])
+with open(sys.argv[1], "w") as memory: print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, file=memory)
+sys.exit(code)"""
 
 
 def run(command, folder, cores):
@@ -18,16 +26,14 @@ def run(command, folder, cores):
         raise SystemExit(f"{cores} cores asked for, {len(allowed)} allowed")
     environment = dict(os.environ, OMP_NUM_THREADS="1")
     with open(folder / "output.txt", "w+") as output:
-        process = subprocess.Popen([str(word) for word in command], cwd=folder, stdout=output,
-                                   stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=environment,
-                                   preexec_fn=lambda: os.sched_setaffinity(0, allowed))
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
+        words = [sys.executable, "-SE", "-c", starter, "memory.txt", *map(str, command)]
+        code = subprocess.run(words, cwd=folder, stdout=output, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                              env=environment, preexec_fn=lambda: os.sched_setaffinity(0, allowed)).returncode
         output.seek(0)
         text = output.read()
-    if process.returncode != 0:
+    if code != 0:
         raise SystemExit(f"{' '.join(map(str, command))} failed in {folder}:\n{text[-2000:]}")
-    return text, usage.ru_maxrss * 1024.0
+    return text, float((folder / "memory.txt").read_text()) * 1024.0
 
 
 def parallel(command, cores):

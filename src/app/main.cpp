@@ -14,6 +14,10 @@
 #include <functional>
 #include <system_error>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 namespace {
 
 using namespace sandlane;
@@ -151,6 +155,9 @@ int guarded(const Job& job) {
 
 int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN); // a limit on file sizes is an error of the write, with a message
+#if defined(__GLIBC__)
+    mallopt(M_MMAP_THRESHOLD, 1 << 20); // buffers as long as all grains go back to the system
+#endif
     CLI::App cli("sandlane: a simulator of granular matter");
     cli.set_version_flag("--version", std::string("sandlane ") + SANDLANE_VERSION);
     cli.footer(exit_codes);

@@ -237,7 +237,7 @@ std::string GasFlow::serialise() const {
         w.put_array(p.data(), p.size());
     }
     save(w);
-    return w.bytes();
+    return std::move(w).bytes();
 }
 
 void GasFlow::restore(const std::string& state) {

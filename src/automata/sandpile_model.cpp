@@ -148,7 +148,7 @@ std::string SandpileModel::serialise() const {
         w.put_array(p.w.data(), p.w.size());
         if (search_ != nullptr) search_->save(w);
     }
-    return w.bytes();
+    return std::move(w).bytes();
 }
 
 void SandpileModel::restore(const std::string& state) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace sandlane {
 
@@ -29,7 +30,9 @@ public:
         if (count > 0) bytes_.append(reinterpret_cast<const char*>(data), count * sizeof(T));
     }
     void put_text(std::string_view text) { put_array(text.data(), text.size()); }
-    [[nodiscard]] const std::string& bytes() const { return bytes_; }
+    void reserve(std::size_t size) { bytes_.reserve(size); }
+    [[nodiscard]] const std::string& bytes() const& { return bytes_; }
+    [[nodiscard]] std::string bytes() && { return std::move(bytes_); }
 
 private:
     std::string bytes_;

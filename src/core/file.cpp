@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -23,11 +24,17 @@ namespace {
          std::strerror(cause));
 }
 
+bool write_pieces(std::FILE* handle, std::initializer_list<std::string_view> pieces) {
+    return std::all_of(pieces.begin(), pieces.end(), [&](std::string_view piece) {
+        return piece.empty() || std::fwrite(piece.data(), 1, piece.size(), handle) == piece.size();
+    });
+}
+
 // A device or a pipe: there is nothing to replace.
-void write_directly(const fs::path& path, std::string_view content) {
+void write_directly(const fs::path& path, std::initializer_list<std::string_view> pieces) {
     std::FILE* handle = std::fopen(path.c_str(), "wb");
     if (handle == nullptr) fail_io("open", path, errno);
-    const bool written = std::fwrite(content.data(), 1, content.size(), handle) == content.size();
+    const bool written = write_pieces(handle, pieces);
     const int cause = errno;
     if (std::fclose(handle) != 0 || !written) fail_io("write", path, written ? errno : cause);
 }
@@ -49,10 +56,14 @@ std::string read_file(const fs::path& path) {
 }
 
 void write_file_atomically(const fs::path& path, std::string_view content) {
+    write_file_atomically(path, {content});
+}
+
+void write_file_atomically(const fs::path& path, std::initializer_list<std::string_view> pieces) {
     std::error_code ignored, dangling;
     const bool link = fs::is_symlink(path, ignored);
     const fs::path target = link ? fs::canonical(path, dangling) : path;
-    if (dangling || fs::is_other(target, ignored)) return write_directly(path, content);
+    if (dangling || fs::is_other(target, ignored)) return write_directly(path, pieces);
     const fs::path temporary = target.string() + ".tmp";
     const auto give_up = [&](const char* action, int cause) {
         fs::remove(temporary, ignored);
@@ -60,8 +71,7 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
     };
     std::FILE* handle = std::fopen(temporary.c_str(), "wb");
     if (handle == nullptr) give_up("create the file", errno);
-    bool written =
-        content.empty() || std::fwrite(content.data(), 1, content.size(), handle) == content.size();
+    bool written = write_pieces(handle, pieces);
     written = written && std::fflush(handle) == 0;
     written = written && ::fsync(::fileno(handle)) == 0;
     const int cause = errno;

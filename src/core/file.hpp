@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,8 @@ namespace sandlane {
 // the new content, never half of it. A link keeps pointing where it does; a device or a pipe is written as it
 // is. Throws Error(io); the temporary file is removed.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+// Of pieces that need not be put together in memory.
+void write_file_atomically(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces);
 
 // A file that grows during a run (log, trajectory). Every error is an Error(io) naming the path.
 class OutputFile {

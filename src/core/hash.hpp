@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace sandlane {
 
@@ -15,5 +17,7 @@ struct Hash128 {
 };
 
 [[nodiscard]] Hash128 hash_bytes(const void* data, std::size_t size);
+// Of the pieces one after the other.
+[[nodiscard]] Hash128 hash_pieces(std::initializer_list<std::string_view> pieces);
 
 } // namespace sandlane

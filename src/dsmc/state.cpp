@@ -96,7 +96,7 @@ std::string Simulation::frame() const {
         out.put(setup_.lower[d]);
         out.put(setup_.upper[d]);
     }
-    return out.bytes();
+    return std::move(out).bytes();
 }
 
 std::string Simulation::serialise() const {
@@ -115,7 +115,7 @@ std::string Simulation::serialise() const {
         out.put_array(tile.rows.velocity.data(), rows);
         if (setup_.rough) out.put_array(tile.rows.spin.data(), rows);
     }
-    return out.bytes();
+    return std::move(out).bytes();
 }
 
 void Simulation::restore(const std::string& bytes) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace sandlane::md {
 
@@ -43,6 +44,7 @@ bool suits(const State& state, std::size_t i, const scene::Scene& scene, const P
 
 std::string Simulation::serialise() const {
     ByteWriter w;
+    w.reserve(state_.bytes() + lists_.bytes());
     w.put(step_);
     w.put(plan_.tick);
     w.put(plan_.stride);
@@ -69,7 +71,7 @@ std::string Simulation::serialise() const {
         lists_.memory(state_).write(w);
         walls_.memory(state_).write(w);
     }
-    return w.bytes();
+    return std::move(w).bytes();
 }
 
 void Simulation::restore(const std::string& bytes) {

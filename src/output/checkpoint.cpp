@@ -40,23 +40,25 @@ std::string bookmark_in(const Checkpoint* checkpoint, const std::string& name) {
 }
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& c) {
-    ByteWriter content;
-    content.put_text(c.scene);
-    content.put_text(c.engine_state);
-    content.put(c.step);
-    content.put(c.wall_seconds);
-    content.put(static_cast<std::uint64_t>(c.bookmarks.size()));
+    // The state is most of it, and in memory once.
+    ByteWriter before, after;
+    before.put_text(c.scene);
+    before.put(static_cast<std::uint64_t>(c.engine_state.size()));
+    after.put(c.step);
+    after.put(c.wall_seconds);
+    after.put(static_cast<std::uint64_t>(c.bookmarks.size()));
     for (const auto& [name, value] : c.bookmarks) {
-        content.put_text(name);
-        content.put_text(value);
+        after.put_text(name);
+        after.put_text(value);
     }
-    const Hash128 hash = hash_bytes(content.bytes().data(), content.bytes().size());
+    const Hash128 hash = hash_pieces({before.bytes(), c.engine_state, after.bytes()});
     ByteWriter header;
     header.put(version);
-    header.put(static_cast<std::uint64_t>(content.bytes().size()));
+    header.put(
+        static_cast<std::uint64_t>(before.bytes().size() + c.engine_state.size() + after.bytes().size()));
     header.put(hash.high);
     header.put(hash.low);
-    write_file_atomically(path, std::string(magic) + header.bytes() + content.bytes());
+    write_file_atomically(path, {magic, header.bytes(), before.bytes(), c.engine_state, after.bytes()});
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
