@@ -81,7 +81,7 @@ public:
         ByteWriter out;
         out.put_array(&mark_, 1);
         out.put_text(run_->serialise());
-        return out.bytes();
+        return std::move(out).bytes();
     }
     void restore(const std::string& state, const std::string& origin) override {
         try {

@@ -56,7 +56,7 @@ std::string Simulation::frame() const {
         out.put(c.mass);
         out.put(c.inertia);
     }
-    return out.bytes();
+    return std::move(out).bytes();
 }
 
 std::string Simulation::serialise() const {
@@ -77,7 +77,7 @@ std::string Simulation::serialise() const {
     out.put_array(spin_.data(), spin_.size());
     out.put_array(&work_, 1);
     put_course(out);
-    return out.bytes();
+    return std::move(out).bytes();
 }
 
 void Simulation::restore(const std::string& bytes) {

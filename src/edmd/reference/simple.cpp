@@ -243,7 +243,7 @@ std::string SimpleAlgorithm::serialise() const {
     const std::vector<RawState> states = raw_states();
     out.put_array(states.data(), states.size());
     put_course(out);
-    return out.bytes();
+    return std::move(out).bytes();
 }
 
 void SimpleAlgorithm::restore(const std::string& bytes) {
