@@ -28,7 +28,9 @@ namespace sandlane::edmd {
         for (const Side& side : axis)
             fastest = std::max({fastest, 7 * side.motion.frequency * side.motion.amplitude,
                                 std::sqrt(side.temperature / setup.classes[0].mass)});
-    return fastest > 0 ? 1000 * shortest / fastest : std::numeric_limits<double>::infinity();
+    const double straight = fastest > 0 ? 1000 * shortest / fastest : std::numeric_limits<double>::infinity();
+    // A field that a periodic direction follows makes them faster all the time.
+    return field > 0 ? std::min(straight, std::sqrt(1000 * shortest / std::sqrt(field))) : straight;
 }
 
 } // namespace sandlane::edmd

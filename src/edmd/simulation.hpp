@@ -56,7 +56,9 @@ private:
     void settle_tie();
     [[nodiscard]] std::vector<std::uint32_t> order_by_id() const;
     [[nodiscard]] std::string frame() const;
-    [[nodiscard]] std::int64_t cell_number(const std::uint16_t (&cell)[3]) const;
+    [[nodiscard]] std::int64_t cell_number(const std::uint16_t (&cell)[3]) const {
+        return cell[0] + view_.count[0] * (cell[1] + static_cast<std::int64_t>(view_.count[1]) * cell[2]);
+    }
     void add_to_cell(std::int64_t cell, std::uint32_t i);
     void take_from_cell(std::int64_t cell, std::uint32_t i);
     void choose_cells();

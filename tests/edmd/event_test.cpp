@@ -284,6 +284,19 @@ TEST(EdmdEvents, WrapsExactly) {
     EXPECT_EQ(p.image[1], -500000);
 }
 
+// A field along a periodic direction: ever faster through the box, 50 000 times.
+TEST(EdmdEvents, FallsThroughThePeriodicBox) {
+    edmd::Setup s;
+    s.dimension = 2;
+    s.upper[0] = s.upper[1] = 8;
+    s.gravity[1] = -1;
+    edmd::Simulation run(s, {at(0, {1, 1, 0}, {0, 0, 0})}, simd::available_isas().back(), 1);
+    run.run(1, 894.5);
+    const edmd::Particle p = run.particles()[0];
+    EXPECT_NEAR(p.place[1] + 8 * static_cast<double>(p.image[1]), 1 - 0.5 * 894.5 * 894.5, 1e-6);
+    EXPECT_LT(p.image[1], -49000);
+}
+
 // No restitution at all: pairs leave side by side and do not collide forever.
 TEST(EdmdEvents, NoRestitution) {
     edmd::Setup s = test::hard_gas(2, 0.2, 0, 36);
