@@ -23,7 +23,7 @@ def program(name, arguments, save):
 
 def short(name):
     """A case by the name it was asked for: without the library's suffixes."""
-    return re.sub(r"/(real_time|iterations:\d+)", "", name)
+    return re.sub(r"/(real_time|iterations:\d+|repeats:\d+)", "", name)
 
 
 def steps(cases, rounds, seconds, save):

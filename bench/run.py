@@ -7,6 +7,7 @@ memory and arithmetic units, both measured in the same run, allow for the bytes 
 import argparse
 import json
 import pathlib
+import subprocess
 import sys
 
 import measure
@@ -148,6 +149,27 @@ def compare(options):
         print(f"{name:<64}{a / 1e6:>8.1f} M{b / 1e6:>8.1f} M{b / a:>9.3f}")
 
 
+def events(options):
+    """Event-driven dynamics: collisions per second, and four dependent misses of the cache as a measure."""
+    arguments = [f"--benchmark_filter={options.filter}", f"--benchmark_min_time={options.seconds}",
+                 f"--benchmark_repetitions={options.rounds}"]
+    found = {}
+    for record in measure.program("bench_edmd", arguments, "events"):
+        if record["run_type"] == "iteration":
+            found.setdefault(measure.short(record["name"]), []).append(record)
+    print(f"{'case':<48}{'collisions/s':>13}{'spread':>8}{'crossings':>10}{'B/particle':>11}{'of bound':>9}")
+    for name, records in found.items():
+        rates = [r["collisions_per_second"] for r in records]
+        middle = measure.median(records, "collisions_per_second")
+        print(f"{name:<48}{middle / 1e6:>11.2f} M{(max(rates) - min(rates)) / middle:>7.0%}"
+              f"{measure.median(records, 'crossings'):>10.2f}{measure.median(records, 'bytes_per_particle'):>11.0f}"
+              f"{measure.median(records, 'of_chase_bound'):>9.0%}")
+
+
+def stability(options):
+    return subprocess.run([measure.build / "bench" / "bench_edmd", "--stress", str(options.events)]).returncode
+
+
 def main():
     parser = argparse.ArgumentParser(prog="tools/bench", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -195,6 +217,12 @@ def main():
     sub.add_argument("--only", nargs="+", help="programs, sandlane among them")
     sub.add_argument("--rounds", type=int, default=3, help="times that all programs run in turn")
     sub.add_argument("--seconds", type=float, default=2.0, help="aimed time of one run")
+    sub = command("events", events, "event-driven dynamics: collisions per second")
+    sub.add_argument("--filter", default=r"^edmd/.*/avx512", help="regular expression of names")
+    sub.add_argument("--rounds", type=int, default=3, help="times that each case runs")
+    sub.add_argument("--seconds", type=float, default=0.5, help="least time of one run")
+    sub = command("stability", stability, "event-driven dynamics, 1e9 events: no overlap, no drift of the energy (ten minutes)")
+    sub.add_argument("--events", type=float, default=1e9, help="number of events")
     sub = command("compare", compare, "two result files (build/bench/*.json) of the same cases")
     sub.add_argument("old")
     sub.add_argument("new")

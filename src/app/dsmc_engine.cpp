@@ -1,12 +1,9 @@
 #include "app/dsmc_engine.hpp"
 
-#include "app/commands.hpp"
-#include "app/dsmc_recorder.hpp"
+#include "app/gas_recorder.hpp"
 #include "app/json.hpp"
 #include "core/error.hpp"
 #include "dsmc/theory.hpp"
-#include "output/picture.hpp"
-#include "scene/schema.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -153,58 +150,31 @@ std::vector<std::string> DsmcEngine::news() {
 
 std::unique_ptr<Recorder> DsmcEngine::recorder(const std::filesystem::path& folder,
                                                const output::Checkpoint* resume) {
-    return std::make_unique<DsmcRecorder>(folder, *this, resume);
+    return std::make_unique<GasRecorder>(folder, *this, resume);
 }
 
 analysis::Snapshot DsmcEngine::snapshot() const {
-    const std::vector<dsmc::Particle> particles = simulation_.particles();
-    analysis::Snapshot s;
+    analysis::Snapshot s = snapshot_of_box(*scene_);
     s.step = step();
     s.time = time();
-    s.dimension = static_cast<int>(scene_->domain.dimension);
-    s.lower = scene_->domain.lower;
-    s.upper = scene_->domain.upper;
-    s.periodic_x = scene_->domain.periodic[0];
-    s.periodic_y = scene_->domain.periodic[1];
-    s.periodic_z = scene_->domain.periodic[2];
-    const bool space = s.dimension == 3;
-    for (const dsmc::Particle& p : particles) {
-        s.id.push_back(p.id);
-        s.x.push_back(p.place[0]);
-        s.y.push_back(p.place[1]);
-        s.vx.push_back(p.velocity[0]);
-        s.vy.push_back(p.velocity[1]);
-        s.omega.push_back(p.spin[2]);
-        s.image_x.push_back(p.image[0]);
-        s.image_y.push_back(p.image[1]);
-        if (!space) continue;
-        s.z.push_back(p.place[2]);
-        s.vz.push_back(p.velocity[2]);
-        s.omega_x.push_back(p.spin[0]);
-        s.omega_y.push_back(p.spin[1]);
-        s.image_z.push_back(p.image[2]);
-    }
-    s.angle.assign(particles.size(), 0);
-    s.radius.assign(particles.size(), 0.5 * scene_->gas.diameter);
-    s.mass.assign(particles.size(), scene_->gas.mass);
-    s.pressure.assign(particles.size(), 0);
-    s.material.assign(particles.size(), 0);
+    for (const dsmc::Particle& p : simulation_.particles())
+        add_particle(s, p, 0.5 * scene_->gas.diameter, scene_->gas.mass, 0);
     return s;
 }
 
-void DsmcEngine::draw(const std::filesystem::path& png, const Look& look) const {
-    scene::Scene turned = *scene_;
-    if (!look.view.empty()) {
-        if (turned.domain.dimension != 3)
-            fail(Exit::invalid_input, "--view goes with three-dimensional scenes only");
-        turned.output.view = {look.view[0], look.view[1], look.view[2]};
-    }
-    output::PictureStyle style = output::picture_style(turned);
-    const scene::Choices& colours = scene::colour_choices();
-    const auto colour = std::find(colours.begin(), colours.end(), look.colour);
-    if (colour != colours.end()) style.colour = static_cast<scene::Colour>(colour - colours.begin());
-    if (look.width > 0) style.width = look.width;
-    output::write_picture(png, snapshot(), style);
+GasSampling DsmcEngine::sampling() const {
+    return {scene_->dsmc.sample_every, scene_->dsmc.sample_start};
+}
+
+analysis::GasSamples DsmcEngine::make_samples() const {
+    const scene::Dsmc& d = scene_->dsmc;
+    const auto axis = static_cast<std::size_t>(d.profile_axis);
+    const std::int64_t bins = d.profile_bins > 0 ? d.profile_bins : plan_->setup.cells[axis];
+    return {dsmc::frame_of(plan_->setup), static_cast<int>(axis), static_cast<std::size_t>(bins)};
+}
+
+void DsmcEngine::sample(analysis::GasSamples& samples) const {
+    samples.add(simulation_.particles());
 }
 
 std::string DsmcEngine::plan_json() const {

@@ -1,7 +1,7 @@
 // Direct simulation Monte Carlo as an engine of the program.
 #pragma once
 
-#include "app/engine.hpp"
+#include "app/gas_engine.hpp"
 #include "dsmc/plan.hpp"
 #include "dsmc/simulation.hpp"
 
@@ -11,13 +11,16 @@
 
 namespace sandlane::app {
 
-class DsmcEngine final : public Engine {
+class DsmcEngine final : public GasEngine {
 public:
     DsmcEngine(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const dsmc::Plan> plan,
                simd::Isa isa);
 
     [[nodiscard]] const dsmc::Simulation& simulation() const { return simulation_; }
-    [[nodiscard]] analysis::Snapshot snapshot() const;
+    [[nodiscard]] analysis::Snapshot snapshot() const override;
+    [[nodiscard]] GasSampling sampling() const override;
+    [[nodiscard]] analysis::GasSamples make_samples() const override;
+    void sample(analysis::GasSamples& samples) const override;
 
     [[nodiscard]] const Words& words() const override;
     [[nodiscard]] const scene::Scene& scene() const override { return *scene_; }
@@ -47,7 +50,6 @@ public:
     [[nodiscard]] std::vector<std::string> news() override;
     [[nodiscard]] std::unique_ptr<Recorder> recorder(const std::filesystem::path& folder,
                                                      const output::Checkpoint* resume) override;
-    void draw(const std::filesystem::path& png, const Look& look) const override;
     [[nodiscard]] std::string plan_json() const override;
     [[nodiscard]] std::string summary_json() const override;
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> report_rows() const override;

@@ -83,6 +83,10 @@ public:
     [[nodiscard]] virtual double time_step() const = 0; // intervals of outputs are counted in it
     [[nodiscard]] virtual double duration() const = 0;  // intervals of outputs are parts of it
     [[nodiscard]] virtual std::size_t size() const = 0; // grains, sites: what a step works on
+    // What so many steps are counted as, in units of words().work.
+    [[nodiscard]] virtual double work(std::int64_t steps) const {
+        return static_cast<double>(steps) * static_cast<double>(size());
+    }
 
     // ---- state: equal hashes mean equal bits, whatever the threads and the instruction set
     [[nodiscard]] virtual Hash128 state_hash() const = 0;

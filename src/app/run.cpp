@@ -72,7 +72,7 @@ public:
             advance(next_stop());
             outputs_.write_due(false);
             if (check_every_ > 0 && engine_.step() % check_every_ == 0) compare_with_reference();
-            progress_.update(engine_.step(), engine_.time(), engine_.size());
+            progress_.update(engine_.step(), engine_.time(), static_cast<std::size_t>(engine_.work(1)));
             if (engine_.step() >= last_ || engine_.finished()) break;
             if (stop_signal != 0) return Status::interrupted;
             if (walltime_ > 0 && wall.seconds() > walltime_) return Status::walltime;
@@ -106,7 +106,7 @@ private:
         const std::int64_t taken = engine_.taken() - before; // fewer if it has finished
         timing_.seconds += seconds;
         timing_.steps += taken;
-        timing_.work += static_cast<double>(taken) * static_cast<double>(engine_.size());
+        timing_.work += engine_.work(taken);
         if (seconds < 0.05 && asked == slice_) slice_ *= 2;
         if (seconds > 0.2 && slice_ > 1) slice_ /= 2;
     }

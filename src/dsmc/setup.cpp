@@ -79,6 +79,22 @@ std::vector<Particle> maxwellian(const Setup& setup, std::uint32_t count, double
     return particles;
 }
 
+analysis::GasFrame frame_of(const Setup& setup) {
+    analysis::GasFrame f;
+    f.dimension = setup.dimension;
+    for (int d = 0; d < 3; ++d) {
+        f.lower[d] = setup.lower[d];
+        f.upper[d] = setup.upper[d];
+    }
+    f.volume = setup.volume();
+    f.particle_volume = setup.particle_volume();
+    f.weight = setup.weight;
+    f.mass = setup.mass;
+    f.rough = setup.rough;
+    f.moment = setup.inertia * setup.mass * 0.25 * setup.diameter * setup.diameter;
+    return f;
+}
+
 Scales scales(const Setup& setup, std::size_t particles, double temperature) {
     Scales s;
     s.density = static_cast<double>(particles) * setup.weight / setup.volume();

@@ -1,6 +1,7 @@
 // What a simulation of a gas is made of: box, cells, particles, collisions, time step.
 #pragma once
 
+#include "analysis/gas_samples.hpp"
 #include "dsmc/walls.hpp"
 
 #include <array>
@@ -47,6 +48,9 @@ struct Particle {
 // temperature T_spin. Stream 5 of the specification.
 [[nodiscard]] std::vector<Particle> maxwellian(const Setup& setup, std::uint32_t count, double temperature,
                                                double spin_temperature = 0);
+
+// What frames of this gas are taken of.
+[[nodiscard]] analysis::GasFrame frame_of(const Setup& setup);
 
 // Numbers of the gas at density n F and temperature T [J], dilute or after Enskog.
 struct Scales {

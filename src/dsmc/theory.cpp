@@ -1,86 +1,13 @@
 #include "dsmc/theory.hpp"
 
-#include <cmath>
 #include <limits>
 
 namespace sandlane::dsmc {
 
-namespace {
-
-using laws::Restitution;
-
-// Mean of 1 - eps^2 over the energies of impacts: int 2 x^3 exp(-x^2) (1 - eps^2(2 x sqrt(T/m))) dx.
-double loss(const Restitution& law, double variance) {
-    if (law.model == Restitution::Model::constant) return 1 - law.eps * law.eps;
-    constexpr int parts = 200; // Simpson, of an integrand that vanishes at both ends
-    constexpr double end = 7;
-    double sum = 0;
-    for (int n = 1; n < parts; ++n) {
-        const double x = end * n / parts;
-        const double eps = laws::restitution(law, 2 * x * std::sqrt(variance));
-        sum += (n % 2 == 1 ? 4 : 2) * 2 * x * x * x * std::exp(-x * x) * (1 - eps * eps);
-    }
-    return sum * end / parts / 3;
-}
-
-class Cooling {
-public:
-    Cooling(const Setup& setup, std::size_t particles)
-        : setup_(setup), scales_(scales(setup, particles, setup.mass)) {
-        if (setup.restitution.model != Restitution::Model::constant) return;
-        const double e = setup.restitution.eps;
-        sonine_ = 1 + 3.0 / 16 * cooling_a2(setup.dimension, e);
-    }
-    // d ln T/dt.
-    [[nodiscard]] double rate(double temperature) const {
-        return heating(temperature) - cooling(temperature);
-    }
-    // How fast T comes to a steady state, at most about.
-    [[nodiscard]] double relaxation(double temperature) const {
-        return heating(temperature) + cooling(temperature);
-    }
-    // ln T after dt.
-    [[nodiscard]] double advance(double log, double dt) const { // Runge and Kutta
-        const auto f = [&](double l) { return rate(std::exp(l)); };
-        const double a = f(log), b = f(log + 0.5 * dt * a), c = f(log + 0.5 * dt * b), d = f(log + dt * c);
-        return log + dt / 6 * (a + 2 * b + 2 * c + d);
-    }
-
-private:
-    [[nodiscard]] double heating(double temperature) const {
-        return setup_.kicks / (temperature / setup_.mass);
-    }
-    [[nodiscard]] double cooling(double temperature) const {
-        const double variance = temperature / setup_.mass;
-        return scales_.collision_rate * std::sqrt(variance) / setup_.dimension *
-               loss(setup_.restitution, variance) * sonine_;
-    }
-
-    const Setup& setup_;
-    Scales scales_;
-    double sonine_ = 1;
-};
-
-// Calls look(t, T) along the curve up to `end`.
-template <class Look> void follow(const Cooling& cooling, double temperature, double end, const Look& look) {
-    double t = 0, log = std::log(temperature);
-    while (t < end) {
-        const double now = std::exp(log), rate = std::abs(cooling.rate(now));
-        // A small part of the time in which T changes, which grows with t; near a steady state of that in
-        // which it would return.
-        double dt = rate > 0 ? std::min(0.05 / rate, 0.1 / cooling.relaxation(now)) : end;
-        if (dt > end - t) dt = end - t;
-        log = cooling.advance(log, dt);
-        t = t + dt >= end ? end : t + dt;
-        look(t, dt, std::exp(log));
-    }
-}
-
-} // namespace
-
-double cooling_a2(int dimension, double eps) {
-    const double d = dimension, e = eps;
-    return 16 * (1 - e) * (1 - 2 * e * e) / (25 + 24 * d - 57 * e + 8 * d * e - 2 * e * e * (1 - e));
+analysis::HardGas gas_of(const Setup& setup, std::size_t particles) {
+    const Scales s = scales(setup, particles, setup.mass);
+    return {setup.dimension, s.density,         s.correlation, setup.mass,
+            setup.diameter,  setup.restitution, setup.kicks};
 }
 
 bool is_homogeneous(const Setup& setup) {
@@ -92,26 +19,12 @@ bool is_homogeneous(const Setup& setup) {
 
 std::vector<double> cooling_curve(const Setup& setup, std::size_t particles, double temperature,
                                   const std::vector<double>& times) {
-    std::vector<double> curve;
     if (setup.rough) return std::vector<double>(times.size(), std::numeric_limits<double>::quiet_NaN());
-    const Cooling cooling(setup, particles);
-    double now = 0, value = temperature;
-    for (const double time : times) {
-        follow(cooling, value, time - now, [&](double, double, double t) { value = t; });
-        now = time;
-        curve.push_back(value);
-    }
-    return curve;
+    return analysis::cooling_curve(gas_of(setup, particles), temperature, times);
 }
 
 double adaptive_steps(const Setup& setup, std::size_t particles, double temperature, double duration) {
-    const Cooling cooling(setup, particles);
-    double steps = 0, before = temperature;
-    follow(cooling, temperature, duration, [&](double, double dt, double t) {
-        steps += dt / setup.dt * 0.5 * (std::sqrt(before / temperature) + std::sqrt(t / temperature));
-        before = t;
-    });
-    return steps;
+    return analysis::collision_clock(gas_of(setup, particles), temperature, duration) / setup.dt;
 }
 
 } // namespace sandlane::dsmc

@@ -1,18 +1,17 @@
-// What kinetic theory says of a homogeneous gas: the cooling that a run is compared with.
+// What kinetic theory says of the gas of a setup: the cooling that a run is compared with.
 #pragma once
 
+#include "analysis/gas_theory.hpp"
 #include "dsmc/setup.hpp"
 
 #include <vector>
 
 namespace sandlane::dsmc {
 
-// Second Sonine coefficient of free cooling with constant restitution, after Montanero and Santos 2000.
-[[nodiscard]] double cooling_a2(int dimension, double eps);
+// The gas at its density, dilute or after Enskog.
+[[nodiscard]] analysis::HardGas gas_of(const Setup& setup, std::size_t particles);
 
-// Temperature of the homogeneous gas [J] at the ascending times [s], from `temperature` at 0, after
-// dT/dt = -zeta(T) T + m xi^2. zeta: Gaussian velocities, with the first Sonine correction for constant
-// restitution (specification of Monte Carlo, 7.2-7.7). Smooth particles; NaN for rough ones.
+// analysis::cooling_curve of this gas; NaN for rough particles.
 [[nodiscard]] std::vector<double> cooling_curve(const Setup& setup, std::size_t particles, double temperature,
                                                 const std::vector<double>& times);
 // Number of steps until `duration` where the time step follows the temperature, about.

@@ -55,8 +55,17 @@ double oscillating_wall_time(double h, double v, double g, const Oscillation& wa
     double t = 0;
     constexpr int most_steps = 10000;
     for (int step = 0; step < most_steps && t <= limit; ++step) {
+        const double height = h + v * t + 0.5 * g * t * t;
+        if (height > wall.amplitude) { // out of reach: to where it comes back, if it does
+            const double back = flat_wall_time(height - wall.amplitude, v + g * t, g);
+            if (back == never) return never;
+            if (t + back > t) {
+                t += back;
+                continue;
+            }
+        }
         const Turn turn = turn_at(wall, now + t);
-        const double gap = h + v * t + 0.5 * g * t * t - wall.amplitude * turn.sine;
+        const double gap = height - wall.amplitude * turn.sine;
         const double rate = v + g * t - wall.amplitude * omega * turn.cosine;
         if (gap <= close && rate < 0) return t;
         if (!(bound > 0)) return never;

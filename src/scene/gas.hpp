@@ -1,5 +1,5 @@
-// The tables of a scene that describe a gas of equal hard particles, and how direct simulation Monte Carlo
-// runs it.
+// The tables of a scene that describe a gas of hard particles, and how direct simulation Monte Carlo and
+// event-driven dynamics run it.
 #pragma once
 
 #include "core/vec.hpp"
@@ -64,6 +64,26 @@ struct Dsmc {
     double sample_every = 0, sample_start = 0; // s
     GasAxis profile_axis = GasAxis::x;
     std::int64_t profile_bins = 0; // 0: the cells along it
+};
+
+// Hard particles of another size or mass beside those of the gas.
+struct Species {
+    std::int64_t particles = 0;
+    double mass = 1, diameter = 1; // kg, m
+};
+
+enum class EventAlgorithm { automatic, improved, simple };
+
+struct Edmd {
+    EventAlgorithm algorithm = EventAlgorithm::automatic;
+    double duration = 0;
+    std::int64_t events = 0;                   // the run ends after so many; 0: only by its duration
+    double contact_time = 0;                   // s: sooner collisions are elastic
+    double elastic_speed = 0;                  // m/s: slower impacts are elastic
+    double cell_edge = 0;                      // m; 0: chosen
+    double sample_every = 0, sample_start = 0; // s
+    GasAxis profile_axis = GasAxis::x;
+    std::int64_t profile_bins = 20;
 };
 
 } // namespace sandlane::scene

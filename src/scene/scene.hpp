@@ -267,6 +267,8 @@ struct Scene {
     Gas gas;
     std::vector<GasSide> sides;
     Dsmc dsmc;
+    std::vector<Species> species;
+    Edmd edmd;
     std::vector<AnalysisSpec> analyses;
     Output output;
 };

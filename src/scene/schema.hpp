@@ -121,6 +121,8 @@ const Table<PipeFlow>& pipe_flow_table();
 const Table<Gas>& gas_table();
 const Table<GasSide>& side_table();
 const Table<Dsmc>& dsmc_table();
+const Table<Species>& species_table();
+const Table<Edmd>& edmd_table();
 const Table<AnalysisSpec>& analysis_table();
 const Table<Output>& output_table();
 const Table<Scene>& scene_table(); // the keys outside any table

@@ -110,4 +110,48 @@ const Table<Dsmc>& dsmc_table() {
     return table;
 }
 
+const Table<Species>& species_table() {
+    static const Table<Species> table =
+        Table<Species>(
+            "Particles of another size or mass in the gas. Restitution, friction and body are those "
+            "of [gas], and so is the temperature at the start.")
+            .integer("particles", &Species::particles, between(1, 2e9), "number of them")
+            .required()
+            .number("mass", &Species::mass, Unit::mass, positive(), "of one")
+            .number("diameter", &Species::diameter, Unit::length, positive(), "of one");
+    return table;
+}
+
+const Table<Edmd>& edmd_table() {
+    static const Table<Edmd> table =
+        Table<Edmd>(
+            "Event-driven dynamics. Steps are events: collisions and hits of walls. The start is random "
+            "where "
+            "there is room for that, else a lattice. Pictures and trajectories are written only where their "
+            "intervals are given.")
+            .choice("algorithm", &Edmd::algorithm, {"auto", "improved", "simple"},
+                    "cells and a queue, or every pair after every event: the same events. \"auto\" takes the "
+                    "second for boxes of fewer than three cells")
+            .number("duration", &Edmd::duration, Unit::time, not_negative(),
+                    "simulated time; 0: no end by time")
+            .integer("events", &Edmd::events, between(0, 9e15),
+                     "the run ends after so many; 0: by its duration")
+            .number("contact_time", &Edmd::contact_time, Unit::time, not_negative(),
+                    "against inelastic collapse: a particle whose last collision was less than this ago "
+                    "collides elastically; 0: never")
+            .number("elastic_speed", &Edmd::elastic_speed, Unit::speed, not_negative(),
+                    "against inelastic collapse: slower impacts are elastic")
+            .number("cell_edge", &Edmd::cell_edge, Unit::length, not_negative(),
+                    "least edge of the cells; 0: chosen. Results do not depend on it")
+            .number("sample_every", &Edmd::sample_every, Unit::time, any,
+                    "frames of profile.csv and distribution.csv, averages over time; 0: duration/200, "
+                    "negative: none")
+            .number("sample_start", &Edmd::sample_start, Unit::time, not_negative(),
+                    "frames before it are left out")
+            .choice("profile_axis", &Edmd::profile_axis, {"x", "y", "z"},
+                    "axis across the bins of profile.csv")
+            .integer("profile_bins", &Edmd::profile_bins, between(1, 100000), "of profile.csv");
+    return table;
+}
+
 } // namespace sandlane::scene

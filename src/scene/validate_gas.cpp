@@ -4,6 +4,7 @@
 #include "scene/schema.hpp"
 #include "scene/space.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,19 +36,21 @@ struct GasValidator {
             reject("domain.shear_rate = {}: is not known to this method; use 0", d.shear_rate);
     }
 
-    void check_gas() const {
+    // most: largest packing fraction that the method can do, and why.
+    void check_gas(double most, const char* why) const {
         const Gas& gas = scene.gas;
         if (gas.particles == 0) reject("gas: is missing; write [gas] with particles and temperature");
         const double volume = content(scene.domain.upper - scene.domain.lower, scene.domain.dimension);
-        const double packing = static_cast<double>(gas.particles) * gas.weight *
-                               grain_content(0.5 * gas.diameter, scene.domain.dimension) / volume;
-        // Beyond freezing there is no fluid that the contact values were made for.
-        const double most = laws::freezing_fraction[scene.domain.dimension - 2];
+        double packing = static_cast<double>(gas.particles) * gas.weight *
+                         grain_content(0.5 * gas.diameter, scene.domain.dimension) / volume;
+        for (const Species& more : scene.species)
+            packing += static_cast<double>(more.particles) *
+                       grain_content(0.5 * more.diameter, scene.domain.dimension) / volume;
         if (packing > most)
             reject(
-                "gas: the packing fraction is {:.4g}; allowed: up to {}, where the fluid freezes. Take fewer "
-                "particles, a smaller weight or diameter, or a larger domain",
-                packing, most);
+                "gas: the packing fraction is {:.4g}; allowed: up to {}, {}. Take fewer particles, a smaller "
+                "weight or diameter, or a larger domain",
+                packing, most, why);
         if (gas.model == RestitutionModel::viscoelastic && scene.gas.dissipation == 0)
             reject("gas.dissipation: is missing; model = \"viscoelastic\" needs it, above 0");
         if (gas.tangential_restitution == 1 && gas.friction > 0)
@@ -115,14 +118,59 @@ struct GasValidator {
         if (d.adaptive && d.heating > 0)
             reject("dsmc.adaptive: a heated gas does not cool down; leave out adaptive or heating");
     }
+
+    void check_edmd() const {
+        const Edmd& e = scene.edmd;
+        if (scene.gas.weight != 1)
+            reject("gas.weight = {}: hard particles stand for themselves; use 1", scene.gas.weight);
+        double count = static_cast<double>(scene.gas.particles), shortest = scene.gas.diameter,
+               longest = scene.gas.diameter;
+        for (const Species& more : scene.species) {
+            count += static_cast<double>(more.particles);
+            shortest = std::min(shortest, more.diameter);
+            longest = std::max(longest, more.diameter);
+        }
+        if (count > 1e9) reject("gas.particles: {:.4g} with all species; allowed: up to 1e9", count);
+        if (scene.species.size() > 65000)
+            reject("species: {} of them; allowed: up to 65000", scene.species.size());
+        if (longest > 100 * shortest)
+            reject("species.diameter: {} m and {} m; allowed: a ratio up to 100", shortest, longest);
+        for (const AxisOfSpace& axis : axes(scene.domain.dimension)) {
+            const double length = scene.domain.upper.*axis.component - scene.domain.lower.*axis.component;
+            if (longest > length || (!scene.domain.periodic[axis.index] && longest == length))
+                reject("gas.diameter: particles of {} m do not fit into the domain, {} m in {}", longest,
+                       length, axis.name);
+            if (scene.domain.periodic[axis.index] && 2 * longest > length)
+                reject("domain: is {} m long in {}; allowed: at least two diameters, {} m, where it is "
+                       "periodic, "
+                       "so that no particle meets itself or another one twice",
+                       length, axis.name, 2 * longest);
+            if (e.cell_edge > length)
+                reject("edmd.cell_edge = {} m: allowed: up to the length of the domain, {} m", e.cell_edge,
+                       length);
+        }
+        if (e.duration == 0 && e.events == 0)
+            reject("edmd: says no end; give duration, events or both above 0");
+        if (static_cast<std::int64_t>(e.profile_axis) >= scene.domain.dimension)
+            reject("edmd.profile_axis: a plane has no z axis");
+    }
 };
 
 } // namespace
 
+void validate_edmd(const Scene& scene, const std::string& file) {
+    const GasValidator v{scene, file};
+    v.check_domain();
+    v.check_gas(scene.domain.dimension == 3 ? 0.7405 : 0.9069, "the closest packing");
+    for (std::size_t n = 0; n < scene.sides.size(); ++n) v.check_side(n);
+    v.check_edmd();
+}
+
 void validate_dsmc(const Scene& scene, const std::string& file) {
     const GasValidator v{scene, file};
     v.check_domain();
-    v.check_gas();
+    // Beyond freezing there is no fluid that the contact values were made for.
+    v.check_gas(laws::freezing_fraction[scene.domain.dimension - 2], "where the fluid freezes");
     for (std::size_t n = 0; n < scene.sides.size(); ++n) v.check_side(n);
     v.check_dsmc();
 }

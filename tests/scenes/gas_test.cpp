@@ -1,6 +1,6 @@
 // The scenes of gases, smaller or shorter: what they show must happen.
+#include "analysis/gas_samples.hpp"
 #include "dsmc/plan.hpp"
-#include "dsmc/samples.hpp"
 #include "dsmc/simulation.hpp"
 #include "dsmc/theory.hpp"
 #include "scene/reader.hpp"
@@ -68,7 +68,7 @@ TEST(SlowShippedGases, CoolAsTheorySays) {
 // At c = 3.5 some five times as many as Maxwell's law has; about fifty are counted in a bin, 15 %.
 TEST(SlowShippedGases, FastParticlesAreFrequent) {
     Gas gas("velocity-tails.toml", {"gas.particles=50000", "gas.weight=1.3184"});
-    dsmc::Samples samples(gas.plan.setup, 0, 1);
+    analysis::GasSamples samples(dsmc::frame_of(gas.plan.setup), 0, 1);
     gas.run_to(400);
     for (int frame = 0; frame < 60; ++frame) {
         gas.simulation.run(2);
@@ -97,7 +97,7 @@ TEST(SlowShippedGases, RoughSpheresHaveNoEquipartition) {
 
 TEST(SlowShippedGases, HeatedSlabIsColdInTheMiddle) {
     Gas gas("heated-slab.toml", {"gas.particles=8000", "gas.weight=11.25"});
-    dsmc::Samples samples(gas.plan.setup, 0, 9);
+    analysis::GasSamples samples(dsmc::frame_of(gas.plan.setup), 0, 9);
     gas.run_to(400);
     for (int frame = 0; frame < 60; ++frame) {
         gas.simulation.run(20);
@@ -114,7 +114,7 @@ TEST(SlowShippedGases, HeatedSlabIsColdInTheMiddle) {
 
 TEST(SlowShippedGases, FloorKeepsTheGasUp) {
     Gas gas("vibrated-gas.toml", {"gas.particles=4000", "gas.weight=0.5"});
-    dsmc::Samples samples(gas.plan.setup, 1, 20);
+    analysis::GasSamples samples(dsmc::frame_of(gas.plan.setup), 1, 20);
     gas.run_to(150);
     for (int frame = 0; frame < 60; ++frame) {
         gas.simulation.run(20);

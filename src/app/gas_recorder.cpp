@@ -1,4 +1,4 @@
-#include "app/dsmc_recorder.hpp"
+#include "app/gas_recorder.hpp"
 
 #include "app/interval.hpp"
 #include "core/file.hpp"
@@ -10,14 +10,6 @@ namespace sandlane::app {
 
 namespace {
 
-dsmc::Samples samples_of(const DsmcEngine& engine) {
-    const scene::Dsmc& d = engine.scene().dsmc;
-    const auto axis = static_cast<std::size_t>(d.profile_axis);
-    const dsmc::Setup& setup = engine.simulation().setup();
-    const std::int64_t bins = d.profile_bins > 0 ? d.profile_bins : setup.cells[axis];
-    return {setup, static_cast<int>(axis), static_cast<std::size_t>(bins)};
-}
-
 // Pictures and trajectories are for those who ask: a gas has many particles.
 std::int64_t asked(double every, double duration, double dt) {
     return every > 0 ? interval(every, duration, 0, dt) : never;
@@ -25,13 +17,13 @@ std::int64_t asked(double every, double duration, double dt) {
 
 } // namespace
 
-DsmcRecorder::DsmcRecorder(const std::filesystem::path& folder, const DsmcEngine& engine,
-                           const output::Checkpoint* resume)
+GasRecorder::GasRecorder(const std::filesystem::path& folder, const GasEngine& engine,
+                         const output::Checkpoint* resume)
     : engine_(engine), folder_(folder),
-      sample_steps_(interval(engine.scene().dsmc.sample_every, engine.duration(), 200, engine.time_step())),
+      sample_steps_(interval(engine.sampling().every, engine.duration(), 200, engine.time_step())),
       picture_steps_(asked(engine.scene().output.picture_every, engine.duration(), engine.time_step())),
       trajectory_steps_(asked(engine.scene().output.trajectory_every, engine.duration(), engine.time_step())),
-      samples_(samples_of(engine)),
+      samples_(engine.make_samples()),
       pictures_(folder / "pictures", engine.scene(), output::bookmark_in(resume, "pictures")) {
     if (trajectory_steps_ != never)
         for (const scene::Trajectory kind : engine.scene().output.trajectory) {
@@ -43,15 +35,15 @@ DsmcRecorder::DsmcRecorder(const std::filesystem::path& folder, const DsmcEngine
         samples_.restore(bookmark);
 }
 
-std::int64_t DsmcRecorder::next_due(std::int64_t step) const {
+std::int64_t GasRecorder::next_due(std::int64_t step) const {
     return std::min({next_multiple(step, sample_steps_), next_multiple(step, picture_steps_),
                      next_multiple(step, trajectory_steps_)});
 }
 
-void DsmcRecorder::write_due(bool all) {
+void GasRecorder::write_due(bool all) {
     const std::int64_t step = engine_.step();
-    if (is_due(step, sample_steps_, false) && step > 0 && engine_.time() >= engine_.scene().dsmc.sample_start)
-        samples_.add(engine_.simulation().particles());
+    if (is_due(step, sample_steps_, false) && step > 0 && engine_.time() >= engine_.sampling().start)
+        engine_.sample(samples_);
     const bool picture = is_due(step, picture_steps_, all), trajectory = is_due(step, trajectory_steps_, all);
     if (!(picture || trajectory)) return;
     const analysis::Snapshot snapshot = engine_.snapshot();
@@ -60,14 +52,14 @@ void DsmcRecorder::write_due(bool all) {
         for (auto& [name, writer] : trajectories_) writer->write(snapshot);
 }
 
-void DsmcRecorder::add_bookmarks(std::map<std::string, std::string>& bookmarks) {
+void GasRecorder::add_bookmarks(std::map<std::string, std::string>& bookmarks) {
     bookmarks["pictures"] = pictures_.bookmark();
     for (auto& [name, writer] : trajectories_) bookmarks[name] = writer->bookmark();
     bookmarks["samples"] = samples_.serialise();
     write_tables();
 }
 
-void DsmcRecorder::write_tables() const {
+void GasRecorder::write_tables() const {
     if (samples_.frames() == 0) return;
     write_file_atomically(folder_ / "profile.csv", samples_.profile());
     write_file_atomically(folder_ / "distribution.csv", samples_.distribution());

@@ -1,8 +1,8 @@
 // What only a run of a gas leaves in its folder: profiles, velocity distribution, pictures, trajectories.
 #pragma once
 
-#include "app/dsmc_engine.hpp"
-#include "dsmc/samples.hpp"
+#include "analysis/gas_samples.hpp"
+#include "app/gas_engine.hpp"
 #include "output/picture_series.hpp"
 #include "output/writers.hpp"
 
@@ -14,10 +14,10 @@
 
 namespace sandlane::app {
 
-class DsmcRecorder final : public Recorder {
+class GasRecorder final : public Recorder {
 public:
-    DsmcRecorder(const std::filesystem::path& folder, const DsmcEngine& engine,
-                 const output::Checkpoint* resume);
+    GasRecorder(const std::filesystem::path& folder, const GasEngine& engine,
+                const output::Checkpoint* resume);
 
     [[nodiscard]] std::int64_t next_due(std::int64_t step) const override;
     void write_due(bool all) override;
@@ -28,10 +28,10 @@ public:
 private:
     void write_tables() const;
 
-    const DsmcEngine& engine_;
+    const GasEngine& engine_;
     std::filesystem::path folder_;
     std::int64_t sample_steps_, picture_steps_, trajectory_steps_;
-    dsmc::Samples samples_;
+    analysis::GasSamples samples_;
     output::PictureSeries pictures_;
     std::map<std::string, std::unique_ptr<output::TrajectoryWriter>> trajectories_; // by name of bookmark
 };

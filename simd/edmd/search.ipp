@@ -1,0 +1,171 @@
+// One particle against those of the cells around it, eight at a time.
+#pragma once
+
+#include "laws/pair_time.hpp"
+#include "simd/edmd/tables.hpp"
+#include "simd/rows.hpp"
+#include "simd/words.hpp"
+
+#include <bit>
+#include <cstring>
+
+namespace sandlane::simd {
+
+// Cells next to each other in one direction, and the faces of the box between (1 in the field of the
+// direction, with the bias of images).
+struct CellRun {
+    std::int64_t offset[3];
+    std::uint64_t faces[3];
+    int size = 0;
+};
+SANDLANE_INLINE void add_cell(CellRun& run, std::int64_t at, std::int64_t count, bool periodic,
+                              std::int64_t stride, int shift) {
+    std::uint64_t faces = image_zero;
+    if (at < 0) {
+        if (!periodic) return;
+        at += count;
+        --faces;
+    } else if (at >= count) {
+        if (!periodic) return;
+        at -= count;
+        ++faces;
+    }
+    run.offset[run.size] = at * stride;
+    run.faces[run.size++] = faces << shift;
+}
+
+// The candidates: their numbers, and the faces of the box between.
+struct Candidates {
+    static constexpr int room = 256;
+    std::uint32_t particle[room + width];
+    std::uint64_t faces[room + width];
+    int size = 0;
+};
+template <class Arch>
+SANDLANE_INLINE void put_cell(Candidates& c, const HardCell& cell, std::uint64_t faces) {
+    std::memcpy(c.particle + c.size, cell.particle, sizeof cell);
+    Words<Arch>(faces).store(c.faces + c.size);
+    c.size += static_cast<int>(cell.size());
+}
+
+template <class Arch, int dimension, bool general> class NearSearch {
+    using B = Block<Arch>;
+    using W = Words<Arch>;
+
+public:
+    SANDLANE_INLINE NearSearch(const HardSearch& view, std::uint32_t i, std::uint32_t excluded,
+                               HardFound& found)
+        : view_(view), i_(i), excluded_(excluded), found_(found) {
+        const HardState& s = view.state[i];
+        me_ = {{B(s.place[0]), B(s.place[1]), B(s.place[2])},
+               {B(s.velocity[0]), B(s.velocity[1]), B(s.velocity[2])},
+               B(s.time)};
+        // The class does not count.
+        images_ = s.word & 0x0000ffffffffffffULL;
+        radius_ = view.radius[general ? s.word >> 48 : 0];
+    }
+
+    SANDLANE_INLINE void all(int layer) {
+        const HardEvents& e = view_.events[i_];
+        CellRun run[3];
+        std::int64_t stride = 1;
+        for (int d = 0; d < dimension; ++d) {
+            const std::int64_t at = e.cell[d];
+            int from = -1, to = 1;
+            if (layer >= 0 && layer / 2 == d) from = to = layer % 2 == 0 ? -1 : 1;
+            for (int k = from; k <= to; ++k)
+                add_cell(run[d], at + k, view_.count[d], view_.periodic[d], stride, 16 * d);
+            stride *= view_.count[d];
+        }
+        if constexpr (dimension == 2) {
+            run[2].offset[0] = 0;
+            run[2].faces[0] = 0;
+            run[2].size = 1;
+        }
+        Candidates c;
+        for (int z = 0; z < run[2].size; ++z)
+            for (int y = 0; y < run[1].size; ++y) {
+                const std::int64_t row = run[2].offset[z] + run[1].offset[y];
+                const std::uint64_t faces = run[2].faces[z] + run[1].faces[y];
+                for (int x = 0; x < run[0].size; ++x) {
+                    const HardCell* cell = view_.cells + row + run[0].offset[x];
+                    put_cell<Arch>(c, *cell, faces + run[0].faces[x]);
+                    while (cell->meta > cell_slots) {
+                        cell = view_.cells + cell->next();
+                        if (c.size + width > Candidates::room) predict(c);
+                        put_cell<Arch>(c, *cell, faces + run[0].faces[x]);
+                    }
+                    if (c.size + width > Candidates::room) predict(c);
+                }
+            }
+        predict(c);
+    }
+
+private:
+    // Every candidate, and an empty list.
+    SANDLANE_INLINE void predict(Candidates& c) {
+        const int n = c.size;
+        c.size = 0;
+        // Lanes beyond the last one are the particle itself, which does not approach itself.
+        W(0).store(c.faces + n);
+        for (int l = 0; l < width; ++l) c.particle[n + l] = i_;
+        for (int k = 0; k < n; k += width) block(c.particle + k, c.faces + k);
+    }
+
+    SANDLANE_INLINE void block(const std::uint32_t* particle, const std::uint64_t* faces) {
+        B field[8];
+        Rows<Arch, 8>::gather(reinterpret_cast<const double*>(view_.state),
+                              reinterpret_cast<const std::int32_t*>(particle), field);
+        const laws::Flight<B> other{{field[0], field[1], field[2]}, {field[3], field[4], field[5]}, field[6]};
+        // Images of i less those of j and faces between, in each field plus twice the bias; no field borrows
+        // from the next.
+        const W difference = (W(images_) + W::load(faces)) - words_of(field[7]);
+        Vector<B> shift;
+        shift.x = image<0>(difference);
+        shift.y = image<1>(difference);
+        if constexpr (dimension == 3) shift.z = image<2>(difference);
+        B reach(radius_ + radius_);
+        Vector<B> gravity{B(0.0), B(0.0), B(0.0)};
+        if constexpr (general) {
+            double radii[width];
+            for (int l = 0; l < width; ++l) radii[l] = view_.radius[view_.state[particle[l]].word >> 48];
+            reach = B(radius_) + load<Arch>(radii);
+            gravity = {B(view_.gravity[0]), B(view_.gravity[1]), B(view_.gravity[2])};
+        }
+        const B time =
+            laws::pair_time<dimension, general, B>(me_, other, shift, reach, gravity, B(never_meets));
+        const unsigned meets = bits(time < B(never_meets));
+        unsigned hits = meets & ~bits(time > B(found_.second_time));
+        if (hits != meets) found_.missed = true;
+        if (hits == 0) return;
+        double times[width];
+        store(times, time);
+        for (; hits != 0; hits &= hits - 1) {
+            const int l = std::countr_zero(hits);
+            if (particle[l] != excluded_) add_contact(found_, times[l], particle[l], view_.events);
+        }
+    }
+
+    template <int d> SANDLANE_INLINE B image(const W& difference) const {
+        const W field = right<16 * d>(difference) & W(image_mask);
+        // As a number, less the bias: exact.
+        const B k = block_of(field ^ W(std::bit_cast<std::uint64_t>(0x1p52))) -
+                    B(0x1p52 + static_cast<double>(image_zero));
+        return k * B(view_.length[d]);
+    }
+
+    const HardSearch& view_;
+    std::uint32_t i_, excluded_;
+    HardFound& found_;
+    laws::Flight<B> me_;
+    std::uint64_t images_;
+    double radius_;
+};
+
+template <class Arch, int dimension, bool general>
+void search_near(const HardSearch& view, std::uint32_t i, int layer, std::uint32_t excluded,
+                 HardFound& found) {
+    NearSearch<Arch, dimension, general>(view, i, excluded, found).all(layer);
+}
+
+} // namespace sandlane::simd

@@ -1,0 +1,119 @@
+// The door between src/edmd and simd/edmd: particles of event-driven dynamics in memory, and the search of
+// the next contacts of one of them, one table of functions per instruction set. The reference is
+// src/edmd/reference.
+#pragma once
+
+#include "simd/tables.hpp"
+
+#include <cstdint>
+#include <limits>
+
+namespace sandlane::simd {
+
+inline constexpr double never_meets = std::numeric_limits<double>::infinity();
+
+// What the flight of a particle is known by, in one line of the cache: place and velocity at `time`, which
+// stay as they are until its next event. In the plane the third components are zero. word: faces of the box
+// crossed since the place was folded into it, 16 bits for each direction from the lowest, plus image_zero;
+// the class of the particle in the upper 16.
+struct alignas(64) HardState {
+    double place[3], velocity[3]; // m, m/s
+    double time;                  // s
+    std::uint64_t word;
+};
+inline constexpr std::uint64_t image_zero = 0x4000, image_mask = 0xffff;
+inline constexpr std::int64_t most_images = 0x1fff; // of a particle between two events
+
+// What a particle does next.
+struct alignas(64) HardEvents {
+    // The first two contacts found since the last complete search, the earlier first.
+    double first_time, second_time;
+    double crossing_time; // of a face of its cell
+    std::uint32_t first, second;
+    std::uint32_t bucket; // of the queue
+    std::uint32_t id;
+    std::uint32_t last; // partner of the last change of velocity
+    std::uint32_t hits; // of heated walls
+    double last_time;   // of the last change of velocity
+    std::uint16_t cell[3];
+    std::uint8_t crossing; // 2 axis + 1 upwards
+    std::uint8_t missed;   // contacts were found that found no place in the two above
+};
+static_assert(sizeof(HardEvents) == 64);
+
+// Three numbers of particles and the way to more of them. meta: how many, and cell_slots + 1 times the number
+// of the next one; 0: none.
+inline constexpr std::uint32_t cell_slots = 3;
+struct alignas(16) HardCell {
+    std::uint32_t particle[cell_slots];
+    std::uint32_t meta;
+
+    [[nodiscard]] std::uint32_t size() const { return meta % (cell_slots + 1); }
+    [[nodiscard]] std::uint32_t next() const { return meta / (cell_slots + 1); }
+    void link(std::uint32_t to) { meta = size() + to * (cell_slots + 1); }
+};
+
+// Partners that are none.
+inline constexpr std::uint32_t no_partner = 0xffffffff;
+inline constexpr std::uint32_t first_wall = 0xfffffff0; // + side, 2 axis + upper
+[[nodiscard]] constexpr bool is_wall(std::uint32_t partner) {
+    return partner >= first_wall;
+}
+
+struct HardSearch {
+    const HardState* state;
+    const HardEvents* events;
+    const HardCell* cells;
+    std::int32_t count[3]; // cells
+    bool periodic[3];
+    double length[3];     // of periodic directions, else 0
+    const double* radius; // of the classes
+    double gravity[3];
+};
+
+struct HardFound {
+    double first_time, second_time;
+    std::uint32_t first, second;
+    bool missed;
+};
+
+// Contacts of particle i with those of its own cell and the cells around it (layer < 0), or of the cells that
+// are new to it after it came through face `layer` = 2 axis + upwards. Adds to `found`; does not see
+// `excluded`.
+using HardSearchNear = void (*)(const HardSearch&, std::uint32_t i, int layer, std::uint32_t excluded,
+                                HardFound& found);
+
+struct EdmdKernels {
+    HardSearchNear plain[2];   // [space] particles of one radius, without gravity
+    HardSearchNear general[2]; // [space]
+};
+[[nodiscard]] const EdmdKernels& edmd_kernels(Isa isa);
+
+// Puts a contact into the list; ties go by identity.
+inline void add_contact(HardFound& f, double time, std::uint32_t j, const HardEvents* events) {
+    if (j == f.first && time == f.first_time) return; // seen before
+    const auto before = [&](double t, std::uint32_t other) {
+        if (time != t) return time < t;
+        if (is_wall(other) || is_wall(j)) return is_wall(j) && (!is_wall(other) || j < other);
+        return events[j].id < events[other].id;
+    };
+    // With one contact left of a list that missed some, those come before any that is later than the one
+    // left.
+    const bool closed = f.missed && f.second == no_partner && f.first != no_partner;
+    if (!before(f.second_time, f.second) || (closed && !before(f.first_time, f.first))) {
+        f.missed = true;
+        return;
+    }
+    if (f.second != no_partner) f.missed = true;
+    if (before(f.first_time, f.first)) {
+        f.second_time = f.first_time;
+        f.second = f.first;
+        f.first_time = time;
+        f.first = j;
+    } else {
+        f.second_time = time;
+        f.second = j;
+    }
+}
+
+} // namespace sandlane::simd

@@ -1,0 +1,90 @@
+#include "analysis/gas_samples.hpp"
+
+#include "core/bytes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sandlane::analysis {
+
+GasSamples::GasSamples(const GasFrame& gas, int axis, std::size_t bins)
+    : gas_(gas), axis_(axis), bins_(bins), speeds_(speed_bins), components_(2 * speed_bins) {}
+
+std::string GasSamples::profile() const {
+    const char axis = "xyz"[axis_];
+    const auto d = static_cast<std::size_t>(gas_.dimension);
+    std::string text = fmt::format("{}[m],density[1/m^{}],packing_fraction[1]", axis, gas_.dimension);
+    for (std::size_t c = 0; c < d; ++c) text += fmt::format(",velocity_{}[m/s]", "xyz"[c]);
+    text += ",temperature[J]";
+    for (std::size_t c = 0; c < d; ++c) text += fmt::format(",temperature_{}[J]", "xyz"[c]);
+    text += gas_.rough ? ",spin_temperature[J]\n" : "\n";
+    const auto a = static_cast<std::size_t>(axis_);
+    const double width = (gas_.upper[a] - gas_.lower[a]) / static_cast<double>(bins_.size());
+    const double volume = gas_.volume / static_cast<double>(bins_.size());
+    for (std::size_t n = 0; n < bins_.size(); ++n) {
+        const Sums& b = bins_[n];
+        const double density =
+            frames_ > 0 ? b.count * gas_.weight / volume / static_cast<double>(frames_) : 0;
+        const double count = std::max(b.count, 1.0);
+        text += fmt::format("{:.9g},{:.9g},{:.9g}", gas_.lower[a] + (static_cast<double>(n) + 0.5) * width,
+                            density, density * gas_.particle_volume);
+        double mean = 0, of[3] = {};
+        for (std::size_t c = 0; c < d; ++c) {
+            const double mass = b.mass > 0 ? b.mass : 1, u = b.velocity[c] / mass;
+            of[c] = gas_.mass * std::max(0.0, b.square[c] / count - mass / count * (u * u));
+            mean += of[c] / static_cast<double>(d);
+            text += fmt::format(",{:.9g}", u);
+        }
+        text += fmt::format(",{:.9g}", mean);
+        for (std::size_t c = 0; c < d; ++c) text += fmt::format(",{:.9g}", of[c]);
+        if (gas_.rough) text += fmt::format(",{:.9g}", gas_.moment * b.spin2 / count / (d == 3 ? 3 : 1));
+        text += '\n';
+    }
+    return text;
+}
+
+std::string GasSamples::distribution() const {
+    std::string text = "c[1],speed_density[1],maxwell_speed_density[1],component_density[1],"
+                       "maxwell_component_density[1]\n";
+    constexpr double width = fastest / speed_bins;
+    const double n = std::max(counted_, 1.0), pi = std::numbers::pi;
+    for (std::size_t b = 0; b < speed_bins; ++b) {
+        const double c = (static_cast<double>(b) + 0.5) * width;
+        // Both signs of a component together.
+        const double component = (components_[speed_bins + b] + components_[speed_bins - 1 - b]) /
+                                 (2 * n * gas_.dimension * width);
+        const double maxwell =
+            gas_.dimension == 3 ? 4 / std::sqrt(pi) * c * c * std::exp(-c * c) : 2 * c * std::exp(-c * c);
+        text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", c, speeds_[b] / (n * width), maxwell,
+                            component, std::exp(-c * c) / std::sqrt(pi));
+    }
+    return text;
+}
+
+std::string GasSamples::serialise() const {
+    ByteWriter out;
+    out.put(frames_);
+    out.put(counted_);
+    out.put_array(bins_.data(), bins_.size());
+    out.put_array(speeds_.data(), speeds_.size());
+    out.put_array(components_.data(), components_.size());
+    return out.bytes();
+}
+
+void GasSamples::restore(const std::string& bytes) {
+    ByteReader in(bytes);
+    const std::size_t sizes[] = {bins_.size(), speeds_.size(), components_.size()};
+    frames_ = in.get<std::int64_t>();
+    counted_ = in.get<double>();
+    in.get_array(bins_);
+    in.get_array(speeds_);
+    in.get_array(components_);
+    if (bins_.size() != sizes[0] || speeds_.size() != sizes[1] || components_.size() != sizes[2] ||
+        !in.at_end())
+        fail(Exit::io, "averages of the gas: damaged, or of another scene");
+}
+
+} // namespace sandlane::analysis

@@ -1,0 +1,264 @@
+// Event-driven dynamics as an engine of the program. A step is an event.
+#include "app/gas_engine.hpp"
+#include "app/gas_recorder.hpp"
+#include "app/json.hpp"
+#include "core/bytes.hpp"
+#include "core/error.hpp"
+#include "edmd/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sandlane::app {
+
+namespace {
+
+std::vector<Difference> differences(const std::vector<edmd::Particle>& a,
+                                    const std::vector<edmd::Particle>& b) {
+    std::vector<Difference> found;
+    std::vector<std::int64_t> ids(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) ids[i] = a[i].id;
+    const auto add = [&](const char* name, const char* unit, std::array<double, 3> edmd::Particle::*values) {
+        for (std::size_t d = 0; d < 3; ++d) {
+            std::vector<double> first, second;
+            for (const edmd::Particle& p : a) first.push_back((p.*values)[d]);
+            for (const edmd::Particle& p : b) second.push_back((p.*values)[d]);
+            found.push_back(difference(fmt::format("{} {}", name, "xyz"[d]), unit, ids, first, second));
+        }
+    };
+    add("place", "m", &edmd::Particle::place);
+    add("velocity", "m/s", &edmd::Particle::velocity);
+    add("spin", "rad/s", &edmd::Particle::spin);
+    return found;
+}
+
+// Sums at the last row of the log, from which the next row takes rates.
+struct Mark {
+    double time = 0, virial = 0, temperature = 0;
+    std::int64_t collisions = 0;
+};
+
+class EdmdEngine final : public GasEngine {
+public:
+    EdmdEngine(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const edmd::Plan> plan,
+               simd::Isa isa)
+        : scene_(std::move(scene)), plan_(std::move(plan)), isa_(isa),
+          run_(edmd::start(*scene_, *plan_, isa)) {}
+
+    [[nodiscard]] const Words& words() const override {
+        static const Words words{"particle", "particles", "particles", "events", "events", "s"};
+        return words;
+    }
+    [[nodiscard]] const scene::Scene& scene() const override { return *scene_; }
+    [[nodiscard]] simd::Isa isa() const override { return isa_; }
+    [[nodiscard]] int threads() const override { return plan_->threads; }
+
+    void run(std::int64_t steps) override {
+        const double end =
+            scene_->edmd.duration > 0 ? scene_->edmd.duration : std::numeric_limits<double>::infinity();
+        if (run_->run(steps, end) < steps) ended_ = true;
+    }
+    [[nodiscard]] std::int64_t step() const override {
+        return static_cast<std::int64_t>(run_->log().count());
+    }
+    [[nodiscard]] std::int64_t steps() const override {
+        return scene_->edmd.events > 0 ? scene_->edmd.events : std::numeric_limits<std::int64_t>::max();
+    }
+    [[nodiscard]] std::int64_t expected_steps() const override {
+        return static_cast<std::int64_t>(std::min(plan_->events, 9e18));
+    }
+    [[nodiscard]] bool finished() const override { return ended_; }
+    [[nodiscard]] double work(std::int64_t steps) const override { return static_cast<double>(steps); }
+    [[nodiscard]] double time() const override { return run_->time(); }
+    // On the average: outputs come after so many events as their intervals take about.
+    [[nodiscard]] double time_step() const override { return plan_->duration / plan_->events; }
+    [[nodiscard]] double duration() const override { return plan_->duration; }
+    [[nodiscard]] std::size_t size() const override { return run_->size(); }
+
+    [[nodiscard]] Hash128 state_hash() const override { return run_->state_hash(); }
+    [[nodiscard]] std::string serialise() const override {
+        ByteWriter out;
+        out.put_array(&mark_, 1);
+        out.put_text(run_->serialise());
+        return std::move(out).bytes();
+    }
+    void restore(const std::string& state, const std::string& origin) override {
+        try {
+            ByteReader in(state);
+            std::vector<Mark> mark;
+            in.get_array(mark);
+            if (mark.size() != 1) fail(Exit::io, "damaged state");
+            run_->restore(in.get_text());
+            mark_ = mark[0];
+        } catch (const Error& e) {
+            fail(e.code(), "{}: {}. Overrides by --set must keep gas, species, domain, sides and cells.",
+                 origin, e.what());
+        }
+    }
+
+    [[nodiscard]] std::vector<Difference> compare_state(const Engine& other) const override {
+        return differences(run_->particles(), dynamic_cast<const EdmdEngine&>(other).run_->particles());
+    }
+    [[nodiscard]] std::vector<Difference> compare_kernels(simd::Isa first, simd::Isa second) const override {
+        const auto after = [&](simd::Isa isa) {
+            const std::unique_ptr<edmd::Algorithm> run = edmd::start(*scene_, *plan_, isa);
+            run->restore(run_->serialise());
+            run->run(100);
+            return run->particles();
+        };
+        return differences(after(first), after(second));
+    }
+    [[nodiscard]] std::string kernels_compared() const override {
+        return "100 events from the present state";
+    }
+
+    [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override;
+    [[nodiscard]] std::vector<double> log_row() override;
+    [[nodiscard]] std::vector<std::string> news() override {
+        return step() == 0 ? plan_->warnings : std::vector<std::string>{};
+    }
+    [[nodiscard]] std::unique_ptr<Recorder> recorder(const std::filesystem::path& folder,
+                                                     const output::Checkpoint* resume) override {
+        return std::make_unique<GasRecorder>(folder, *this, resume);
+    }
+    [[nodiscard]] analysis::Snapshot snapshot() const override;
+    [[nodiscard]] GasSampling sampling() const override {
+        return {scene_->edmd.sample_every, scene_->edmd.sample_start};
+    }
+    [[nodiscard]] analysis::GasSamples make_samples() const override {
+        return {edmd::frame_of(*plan_), static_cast<int>(scene_->edmd.profile_axis),
+                static_cast<std::size_t>(scene_->edmd.profile_bins)};
+    }
+    void sample(analysis::GasSamples& samples) const override {
+        const std::vector<edmd::Class>& classes = plan_->setup.classes;
+        samples.add(run_->particles(),
+                    [&](const edmd::Particle& p) { return classes[p.kind].mass / classes[0].mass; });
+    }
+    [[nodiscard]] std::string plan_json() const override {
+        return fmt::format(R"({{"engine": "edmd", "algorithm": "{}", "rough": {}, "classes": {}}})",
+                           plan_->simple ? "simple" : "improved", plan_->setup.rough,
+                           plan_->setup.classes.size());
+    }
+    [[nodiscard]] std::string summary_json() const override {
+        const edmd::Tally& t = run_->tally();
+        return fmt::format(R"("collisions": {}, "wall_hits": {}, "elastic": {}, "smallest_gap": {}, )"
+                           R"("event_log_hash": "{:016x}", )",
+                           t.collisions, t.wall_hits, t.elastic, json_number(t.smallest_gap),
+                           run_->log().hash());
+    }
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> report_rows() const override;
+
+private:
+    [[nodiscard]] bool guards() const {
+        return plan_->setup.contact_time > 0 || plan_->setup.elastic_speed > 0;
+    }
+
+    std::shared_ptr<const scene::Scene> scene_;
+    std::shared_ptr<const edmd::Plan> plan_;
+    simd::Isa isa_;
+    std::unique_ptr<edmd::Algorithm> run_;
+    bool ended_ = false; // nothing is left to happen until the end
+    Mark mark_;
+};
+
+std::vector<analysis::LogColumn> EdmdEngine::log_columns() const {
+    std::vector<analysis::LogColumn> columns = {{"time", "s"}, {"event", "1"}, {"temperature", "J"}};
+    const std::size_t classes = plan_->setup.classes.size();
+    for (std::size_t k = 0; k < classes && classes > 1; ++k)
+        columns.push_back({fmt::format("temperature_{}", k), "J"});
+    columns.insert(columns.end(), {{"a2", "1"}, {"energy", "J"}, {"wall_energy", "J"}});
+    for (int d = 0; d < plan_->setup.dimension; ++d)
+        columns.push_back({fmt::format("velocity_{}", "xyz"[d]), "m/s"});
+    if (plan_->setup.rough) columns.push_back({"spin_temperature", "J"});
+    if (plan_->homogeneous) columns.push_back({"theory_temperature", "J"});
+    columns.insert(columns.end(),
+                   {{"collisions_per_particle", "1"}, {"collision_rate", "1/s"}, {"compressibility", "1"}});
+    if (guards()) columns.push_back({"elastic_collisions", "1"});
+    return columns;
+}
+
+std::vector<double> EdmdEngine::log_row() {
+    const edmd::Observables o = edmd::observe(plan_->setup, run_->particles());
+    const edmd::Tally& t = run_->tally();
+    const auto n = static_cast<double>(size());
+    std::vector<double> row = {time(), static_cast<double>(step()), o.temperature};
+    if (plan_->setup.classes.size() > 1) row.insert(row.end(), o.of_class.begin(), o.of_class.end());
+    row.insert(row.end(), {o.fourth, o.energy, t.wall_energy});
+    for (int d = 0; d < plan_->setup.dimension; ++d) row.push_back(o.drift[static_cast<std::size_t>(d)]);
+    if (plan_->setup.rough) row.push_back(o.spin_temperature);
+    if (plan_->homogeneous)
+        row.push_back(
+            analysis::cooling_curve(edmd::gas_of(*plan_), scene_->gas.temperature, {time()}).front());
+    const double interval = time() - mark_.time;
+    const double rate =
+        interval > 0 ? 2 * static_cast<double>(t.collisions - mark_.collisions) / (n * interval) : 0;
+    // p/(n T) = 1 + sum of R_ij |P_n| / (d N T t), T in the middle of the interval.
+    const double mean = 0.5 * (o.temperature + mark_.temperature);
+    const double z = interval > 0 && mean > 0
+                         ? 1 + (t.virial - mark_.virial) / (plan_->setup.dimension * n * mean * interval)
+                         : 1;
+    row.insert(row.end(), {2 * static_cast<double>(t.collisions) / n, rate, z});
+    if (guards()) row.push_back(static_cast<double>(t.elastic));
+    mark_ = {time(), t.virial, o.temperature, t.collisions};
+    return row;
+}
+
+analysis::Snapshot EdmdEngine::snapshot() const {
+    analysis::Snapshot s = snapshot_of_box(*scene_);
+    s.step = step();
+    s.time = time();
+    for (const edmd::Particle& p : run_->particles()) {
+        const edmd::Class& c = plan_->setup.classes[p.kind];
+        add_particle(s, p, c.radius, c.mass, static_cast<std::int32_t>(p.kind));
+    }
+    return s;
+}
+
+std::vector<std::pair<std::string, std::string>> EdmdEngine::report_rows() const {
+    const edmd::Observables o = edmd::observe(plan_->setup, run_->particles());
+    const edmd::Tally& t = run_->tally();
+    return {{"Particles", std::to_string(size())},
+            {"Simulated time", fmt::format("{:.4g} s", time())},
+            {"Collisions", std::to_string(t.collisions)},
+            {"Hits of walls", std::to_string(t.wall_hits)},
+            {"Collisions per particle",
+             fmt::format("{:.4g}", 2 * static_cast<double>(t.collisions) / static_cast<double>(size()))},
+            {"Temperature", fmt::format("{:.4g} J", o.temperature)},
+            {"Smallest gap at a contact", fmt::format("{:.2g} m", t.smallest_gap)}};
+}
+
+class EdmdSetup final : public Setup {
+public:
+    EdmdSetup(scene::Scene scene, const Machine& machine)
+        : scene_(std::make_shared<const scene::Scene>(std::move(scene))),
+          plan_(std::make_shared<const edmd::Plan>(edmd::make_plan(*scene_, machine.isa, machine.threads))) {}
+
+    [[nodiscard]] double memory_bytes() const override { return edmd::memory_bytes(*plan_); }
+    [[nodiscard]] std::string description() const override { return edmd::describe(*scene_, *plan_); }
+    [[nodiscard]] std::string json() const override {
+        return fmt::format(
+            R"({{"particles": {}, "packing_fraction": {}, "collision_rate": {}, "events": {}, "algorithm": "{}", )"
+            R"("warnings": {}, "memory_bytes": {}, "isa": "{}", "threads": {}}})",
+            plan_->particles(), json_number(edmd::packing_fraction(plan_->setup, plan_->amounts)),
+            json_number(analysis::collision_rate(edmd::gas_of(*plan_), scene_->gas.temperature)),
+            json_number(plan_->events), plan_->simple ? "simple" : "improved", plan_->warnings.size(),
+            memory_bytes(), simd::isa_name(plan_->isa), plan_->threads);
+    }
+    [[nodiscard]] std::unique_ptr<Engine> start() const override { return start(plan_->isa); }
+    [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) const override {
+        return std::make_unique<EdmdEngine>(scene_, plan_, isa);
+    }
+
+private:
+    std::shared_ptr<const scene::Scene> scene_;
+    std::shared_ptr<const edmd::Plan> plan_;
+};
+
+} // namespace
+
+std::unique_ptr<Setup> prepare_edmd(scene::Scene scene, const Machine& machine) {
+    return std::make_unique<EdmdSetup>(std::move(scene), machine);
+}
+
+} // namespace sandlane::app

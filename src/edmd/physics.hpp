@@ -1,0 +1,64 @@
+// What happens at an event: two particles collide, one meets a wall. Both algorithms call these.
+#pragma once
+
+#include "edmd/setup.hpp"
+#include "laws/collision.hpp"
+#include "laws/pair_time.hpp"
+
+namespace sandlane::edmd {
+
+// A particle at the time of an event.
+struct Body {
+    Vector<double> place{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};
+    std::uint32_t kind = 0;
+};
+
+// What a collision did.
+struct Impact {
+    double gap = 0;       // of the surfaces when they met: rounding, m
+    double push = 0;      // normal impulse over m_eff, m/s
+    bool elastic = false; // made elastic by the rules against inelastic collapse
+    double kept = 0;      // energy that these rules kept, J
+};
+
+// Smooth particles of one class with constant restitution: the arithmetic of collide(), with what is trivial
+// left out.
+template <int dimension>
+SANDLANE_INLINE Impact collide_plain(double eps, double reach, Body& i, Body& j,
+                                     const Vector<double>& shift) {
+    Vector<double> r = i.place - j.place - shift;
+    if constexpr (dimension == 2) r.z = 0;
+    const double distance = std::sqrt(dot(r, r));
+    const Vector<double> e = (1 / distance) * r;
+    // Rounding may let particles that graze part already.
+    const double normal = min(dot(i.velocity - j.velocity, e), 0.0);
+    const Vector<double> push = laws::smooth_impulse(normal, e, eps);
+    i.velocity = i.velocity + 0.5 * push;
+    j.velocity = j.velocity - 0.5 * push;
+    return {distance - reach, -((1 + eps) * normal), false, 0};
+}
+
+// The image of j that is `shift` away. soon: one of them had another collision less than the contact time
+// ago.
+Impact collide(const Setup& setup, Body& i, Body& j, const Vector<double>& shift, bool soon);
+
+// Time of the contact with a side, from the state of the particle; never_meets if there is none. epoch: time
+// of the clock at state.time = 0.
+[[nodiscard]] double wall_time(const Setup& setup, const laws::Flight<double>& state, std::uint32_t kind,
+                               int axis, int upper, double epoch);
+
+struct WallHit {
+    int axis, upper;
+    double now;          // of the clock, s
+    std::uint32_t id;    // of the particle
+    std::uint32_t count; // heated walls that it met before
+    bool soon;           // as above
+};
+struct WallEffect {
+    double energy = 0; // given to the particle, J
+    bool elastic = false;
+    bool heated = false;
+};
+WallEffect meet_wall(const Setup& setup, Body& body, const WallHit& hit);
+
+} // namespace sandlane::edmd

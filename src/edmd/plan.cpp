@@ -1,0 +1,257 @@
+#include "edmd/plan.hpp"
+
+#include "core/error.hpp"
+#include "edmd/reference/simple.hpp"
+#include "edmd/simulation.hpp"
+#include "laws/collision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sandlane::edmd {
+
+namespace {
+
+void copy(const Vec& from, double (&to)[3]) {
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
+}
+
+Side side_of(const scene::GasSide& from) {
+    Side side;
+    side.kind = from.kind == scene::SideKind::heated ? Side::Kind::heated : Side::Kind::reflecting;
+    side.eps_n = from.restitution;
+    side.eps_t = from.tangential_restitution;
+    side.temperature = from.temperature;
+    side.accommodation = from.accommodation;
+    copy(from.velocity, side.velocity);
+    const double turns = from.phase / (2 * std::numbers::pi);
+    side.motion = {from.amplitude, from.frequency, turns - std::floor(turns)};
+    return side;
+}
+
+Setup setup_of(const scene::Scene& scene) {
+    constexpr double inertia[] = {0.4, 0.5, 2.0 / 3, 1};
+    Setup s;
+    s.dimension = static_cast<int>(scene.domain.dimension);
+    copy(scene.domain.lower, s.lower);
+    copy(scene.domain.upper, s.upper);
+    copy(scene.domain.gravity, s.gravity);
+    if (s.dimension == 2) s.lower[2] = 0, s.upper[2] = 1, s.gravity[2] = 0;
+    const scene::Gas& gas = scene.gas;
+    for (int d = 0; d < s.dimension; ++d) s.periodic[d] = scene.domain.periodic[static_cast<std::size_t>(d)];
+    for (const scene::GasSide& side : scene.sides) {
+        const auto n = static_cast<std::size_t>(side.side);
+        s.side[n / 2][n % 2] = side_of(side);
+    }
+    const double q = inertia[static_cast<std::size_t>(gas.body)];
+    s.classes = {{0.5 * gas.diameter, gas.mass, q}};
+    for (const scene::Species& more : scene.species) s.classes.push_back({0.5 * more.diameter, more.mass, q});
+    s.restitution = {static_cast<laws::Restitution::Model>(gas.model), gas.restitution, gas.dissipation,
+                     gas.critical_speed, gas.exponent};
+    s.rough = gas.tangential_restitution != 1;
+    s.tangential = gas.tangential_restitution;
+    s.friction = gas.friction;
+    s.contact_time = scene.edmd.contact_time;
+    s.elastic_speed = scene.edmd.elastic_speed;
+    s.cell_edge = scene.edmd.cell_edge;
+    s.seed = static_cast<std::uint64_t>(scene.seed);
+    return s;
+}
+
+// Of what moves the gas in the long run.
+double highest_temperature(const scene::Scene& scene, const Setup& s) {
+    double highest = scene.gas.temperature;
+    for (const auto& axis : s.side)
+        for (const Side& side : axis) {
+            const double speed = 2 * std::numbers::pi * side.motion.frequency * side.motion.amplitude;
+            highest = std::max({highest, side.temperature, scene.gas.mass * speed * speed});
+        }
+    return highest;
+}
+
+bool has_room_for_cells(const Setup& s) {
+    for (int d = 0; d < s.dimension; ++d)
+        if (s.periodic[d] && s.length(d) < 3.000001 * std::max(2 * s.largest_radius(), s.cell_edge))
+            return false;
+    return true;
+}
+
+// Events until the end: from theory where the gas is homogeneous and cools, else at the rate of the start.
+void expect_events(const scene::Scene& scene, Plan& plan) {
+    const analysis::HardGas gas = gas_of(plan);
+    const auto n = static_cast<double>(plan.particles());
+    const double hottest = highest_temperature(scene, plan.setup),
+                 rate = analysis::collision_rate(gas, hottest);
+    const double time = plan.homogeneous
+                            ? analysis::collision_clock(gas, scene.gas.temperature, scene.edmd.duration)
+                            : scene.edmd.duration;
+    double events = 0.5 * n * rate * time;
+    for (int d = 0; d < plan.setup.dimension; ++d) // n v/4 on each of two sides, about
+        if (!plan.setup.periodic[d])
+            events += n / plan.setup.length(d) * std::sqrt(hottest / plan.setup.classes[0].mass) * time;
+    const auto most = static_cast<double>(scene.edmd.events);
+    if (most > 0 && (scene.edmd.duration == 0 || most < events)) events = most;
+    plan.events = std::max(1.0, events);
+    plan.duration = scene.edmd.duration;
+    if (plan.duration == 0) plan.duration = rate > 0 ? 2 * events / (n * rate) : 1;
+}
+
+void say_what_is_skipped(Plan& plan) {
+    const Setup& s = plan.setup;
+    const auto skip = [&](bool condition, const char* text) {
+        if (condition) plan.skipped.push_back(text);
+    };
+    skip(!s.rough, "spins: the particles are smooth");
+    skip(s.restitution.model == laws::Restitution::Model::constant,
+         "restitution by impact speed: it is constant");
+    skip(s.classes.size() == 1, "classes: all particles are equal");
+    skip(!s.has_walls(), "walls: all sides are periodic");
+    skip(!s.falls(), "gravity");
+    skip(s.contact_time == 0 && s.elastic_speed == 0, "rules against inelastic collapse");
+}
+
+void warn(const scene::Scene& scene, Plan& plan) {
+    const Setup& s = plan.setup;
+    const double rate = analysis::collision_rate(gas_of(plan), highest_temperature(scene, s));
+    if (s.contact_time * rate > 0.01)
+        plan.warnings.push_back(fmt::format("edmd.contact_time is {:.2g} of the time between two collisions, "
+                                            "more than 0.01: it changes the gas",
+                                            s.contact_time * rate));
+    const double speed = std::sqrt(scene.gas.temperature / scene.gas.mass);
+    if (s.elastic_speed > 0.1 * speed)
+        plan.warnings.push_back(
+            fmt::format("edmd.elastic_speed is {:.2g} of the thermal speed, more than 0.1: "
+                        "it changes the gas",
+                        s.elastic_speed / speed));
+    if (!s.is_plain() && s.falls() && s.has_walls() && s.contact_time == 0 && s.elastic_speed == 0) {
+        bool dissipates = s.restitution.model == laws::Restitution::Model::constant && s.restitution.eps < 1;
+        for (const auto& axis : s.side)
+            for (const Side& side : axis) dissipates = dissipates || side.eps_n < 1;
+        if (dissipates)
+            plan.warnings.push_back(
+                "particles come to rest on a wall by infinitely many bounces, which ends the "
+                "run; edmd.contact_time or edmd.elastic_speed prevents that");
+    }
+    if (plan.simple && plan.particles() > 500)
+        plan.warnings.push_back("the simple algorithm takes a time that grows as the square of the number of "
+                                "particles, for every event");
+}
+
+} // namespace
+
+std::size_t Plan::particles() const {
+    std::size_t sum = 0;
+    for (const std::uint32_t n : amounts) sum += n;
+    return sum;
+}
+
+analysis::HardGas gas_of(const Plan& plan) {
+    const Setup& s = plan.setup;
+    analysis::HardGas gas;
+    gas.dimension = s.dimension;
+    gas.density = static_cast<double>(plan.particles()) / s.volume();
+    gas.correlation = laws::contact_correlation(s.dimension, packing_fraction(s, plan.amounts));
+    gas.mass = s.classes[0].mass;
+    gas.diameter = 2 * s.classes[0].radius;
+    gas.restitution = s.restitution;
+    return gas;
+}
+
+analysis::GasFrame frame_of(const Plan& plan) {
+    const Setup& s = plan.setup;
+    analysis::GasFrame f;
+    f.dimension = s.dimension;
+    for (int d = 0; d < 3; ++d) {
+        f.lower[d] = s.lower[d];
+        f.upper[d] = s.upper[d];
+    }
+    f.volume = s.volume();
+    f.particle_volume =
+        packing_fraction(s, plan.amounts) * s.volume() / static_cast<double>(plan.particles());
+    f.mass = s.classes[0].mass;
+    f.rough = s.rough;
+    f.moment = s.classes[0].inertia * f.mass * s.classes[0].radius * s.classes[0].radius;
+    return f;
+}
+
+Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& threads) {
+    Plan plan;
+    plan.setup = setup_of(scene);
+    plan.isa = isa;
+    plan.threads = threads.count;
+    plan.amounts.push_back(static_cast<std::uint32_t>(scene.gas.particles));
+    for (const scene::Species& more : scene.species)
+        plan.amounts.push_back(static_cast<std::uint32_t>(more.particles));
+    const Setup& s = plan.setup;
+    const bool room = has_room_for_cells(s);
+    using scene::EventAlgorithm;
+    if (scene.edmd.algorithm == EventAlgorithm::improved && !room)
+        fail(Exit::invalid_input, "edmd.algorithm = \"improved\": the domain must have room for three cells "
+                                  "of a diameter each where it "
+                                  "is periodic; use \"auto\" or \"simple\"");
+    plan.simple = scene.edmd.algorithm == EventAlgorithm::simple || !room;
+    if (plan.simple && !room)
+        plan.chosen.push_back(
+            "the simple algorithm: the box is too small for three cells in a periodic direction");
+    if (plan.simple && plan.particles() > 20000)
+        fail(Exit::invalid_input,
+             "edmd.algorithm: the simple algorithm keeps all pairs; allowed: up to 20000 particles, here {}",
+             plan.particles());
+    if (threads.automatic && plan.particles() < 10000) plan.threads = 1;
+    plan.homogeneous = s.is_plain() || (s.classes.size() == 1 && !s.rough && !s.has_walls() && !s.falls());
+    expect_events(scene, plan);
+    say_what_is_skipped(plan);
+    warn(scene, plan);
+    return plan;
+}
+
+double memory_bytes(const Plan& plan) {
+    const auto n = static_cast<double>(plan.particles());
+    if (plan.simple) return n * n / 2 * 64 + n * 600;
+    // Beside the state, what a checkpoint or an output holds, and a second copy where storage is sorted.
+    return n * (200 + (plan.setup.rough ? 24 : 0) + 400);
+}
+
+std::unique_ptr<Algorithm> start(const scene::Scene& scene, const Plan& plan, simd::Isa isa) {
+    const std::vector<Particle> particles =
+        make_particles(plan.setup, plan.amounts, scene.gas.temperature, scene.gas.spin_temperature);
+    if (plan.simple) return std::make_unique<SimpleAlgorithm>(plan.setup, particles);
+    return std::make_unique<Simulation>(plan.setup, particles, isa, plan.threads);
+}
+
+std::string describe(const scene::Scene& scene, const Plan& plan) {
+    const Setup& s = plan.setup;
+    const analysis::HardGas gas = gas_of(plan);
+    const double rate = analysis::collision_rate(gas, scene.gas.temperature);
+    std::string text;
+    const auto line = [&](const char* label, const std::string& value) {
+        text += fmt::format("  {:<26}{}\n", label, value);
+    };
+    text += fmt::format("{}\n\nScene\n", scene.title.empty() ? "(untitled)" : scene.title);
+    line("particles", fmt::format("{} of {} kind{}", plan.particles(), s.classes.size(),
+                                  s.classes.size() == 1 ? "" : "s"));
+    line("density, packing fraction",
+         fmt::format("{:.4g} 1/m^{}, {:.4g}", gas.density, s.dimension, packing_fraction(s, plan.amounts)));
+    line("temperature", fmt::format("{:.4g} J at the start", scene.gas.temperature));
+    text += "\nDerived, at the start\n";
+    line("collisions", fmt::format("{:.4g} 1/s per particle", rate));
+    line("contact correlation", fmt::format("{:.4g}", gas.correlation));
+    line("events", fmt::format("about {:.4g}", plan.events));
+    line("memory", fmt::format("about {:.3g} MB", memory_bytes(plan) / 1e6));
+    text += "\nPlan\n";
+    line("engine", fmt::format("edmd, {} dimensions, {} algorithm", s.dimension == 3 ? "three" : "two",
+                               plan.simple ? "simple" : "improved"));
+    line("kernels", plan.simple ? "none" : std::string(simd::isa_name(plan.isa)));
+    line("threads",
+         fmt::format("{}, to predict all events at once; events are taken one by one", plan.threads));
+    for (const std::string& reason : plan.chosen) text += "  " + reason + "\n";
+    text += "\nSkipped, because the scene does not need it\n";
+    for (const std::string& reason : plan.skipped) text += "  " + reason + "\n";
+    for (const std::string& warning : plan.warnings) text += "\nWarning: " + warning + "\n";
+    return text;
+}
+
+} // namespace sandlane::edmd

@@ -1,0 +1,64 @@
+// What a system of hard particles is made of: box, classes of particles, collisions, walls, field.
+#pragma once
+
+#include "laws/restitution_models.hpp"
+#include "laws/wall_times.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sandlane::edmd {
+
+// Particles of one radius, mass and moment of inertia.
+struct Class {
+    double radius = 0.5, mass = 1; // m, kg
+    double inertia = 0.4;          // J = inertia m R^2
+};
+
+// A side of the box that is not periodic.
+struct Side {
+    enum class Kind { reflecting, heated };
+    Kind kind = Kind::reflecting;
+    double eps_n = 1, eps_t = 1;    // reflecting: normal and tangential restitution
+    double temperature = 0;         // heated, J
+    double accommodation = 1;       // heated: fraction that leaves with the temperature of the wall
+    double velocity[3] = {0, 0, 0}; // along the wall, m/s
+    laws::Oscillation motion;       // along the normal, into the box where positive
+
+    [[nodiscard]] bool moves() const { return motion.amplitude > 0; }
+};
+
+struct Setup {
+    int dimension = 3;
+    double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1}; // m
+    bool periodic[3] = {true, true, true};
+    Side side[3][2]; // lower, upper
+    double gravity[3] = {0, 0, 0};
+    std::vector<Class> classes = std::vector<Class>(1);
+    laws::Restitution restitution; // of particles with each other
+    bool rough = false;
+    double tangential = 1, friction = 0; // rough: eps_t, mu
+    double contact_time = 0;             // collisions sooner after the last one are elastic, s
+    double elastic_speed = 0;            // slower impacts are elastic, m/s
+    std::uint64_t seed = 1;
+    double cell_edge = 0; // m, at least; 0: chosen. Results do not depend on it
+
+    [[nodiscard]] double length(int d) const { return upper[d] - lower[d]; }
+    [[nodiscard]] double volume() const; // m^3, m^2 in the plane
+    [[nodiscard]] double largest_radius() const;
+    [[nodiscard]] double smallest_radius() const;
+    [[nodiscard]] bool falls() const { return gravity[0] != 0 || gravity[1] != 0 || gravity[2] != 0; }
+    [[nodiscard]] bool has_walls() const;
+    // One class of smooth particles, constant restitution, nothing else.
+    [[nodiscard]] bool is_plain() const;
+};
+
+struct Particle {
+    std::uint32_t id = 0, kind = 0; // kind: number of the class
+    std::array<double, 3> place{}, velocity{}, spin{};
+    std::array<std::int64_t, 3> image{}; // boxes crossed
+};
+
+} // namespace sandlane::edmd

@@ -1,0 +1,130 @@
+// Event-driven dynamics through the program: run, compare, checkpoints, outputs, refusals.
+#include "program.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace sandlane::test {
+
+namespace {
+
+const std::string hard_scene = R"(title = "Hard spheres"
+method = "edmd"
+
+[domain]
+dimension = 3
+upper = [12, 12, 12]
+periodic = ["x", "y"]
+
+[gas]
+particles = 400
+temperature = 1
+restitution = 0.9
+
+[[sides]]
+side = "-z"
+kind = "heated"
+temperature = 1
+
+[edmd]
+duration = 10
+)";
+
+class Events : public App {};
+
+nlohmann::json json_of(const std::string& text) {
+    return nlohmann::json::parse(text);
+}
+
+} // namespace
+
+TEST_F(Events, RunAndLeaveTheirFiles) {
+    write("hard.toml", hard_scene);
+    run_well({"run", "hard.toml", "--quiet"});
+    for (const char* file : {"log.csv", "profile.csv", "distribution.csv", "plan.txt", "scene.toml",
+                             "summary.json", "report.html"})
+        EXPECT_TRUE(fs::exists(path("results/hard") / file)) << file;
+    const auto summary = json_of(read("results/hard/summary.json"));
+    EXPECT_GT(summary["collisions"].get<int>(), 500);
+    EXPECT_GT(summary["wall_hits"].get<int>(), 100);
+    EXPECT_SAYS(read("results/hard/log.csv"), "collision_rate[1/s],compressibility[1]");
+    // The effective scene is a scene, of the same result.
+    run_well({"run", "results/hard/scene.toml", "--quiet", "--out", "again"});
+    EXPECT_EQ(json_of(read("again/summary.json"))["state_hash"], summary["state_hash"]);
+    EXPECT_EQ(json_of(read("again/summary.json"))["event_log_hash"], summary["event_log_hash"]);
+}
+
+TEST_F(Events, CompareInstructionSetsAndAlgorithms) {
+    write("hard.toml", hard_scene);
+    EXPECT_SAYS(run_well({"compare", "hard.toml", "--steps", "700"}).out, "identical, bit for bit");
+    std::string hashes[2];
+    for (int k = 0; k < 2; ++k) {
+        const std::string algorithm = k == 0 ? "improved" : "simple";
+        run_well({"run", "hard.toml", "--quiet", "--steps", "700", "--out", algorithm, "--set",
+                  "edmd.algorithm=" + algorithm});
+        const auto summary = json_of(read(algorithm + "/summary.json"));
+        hashes[k] = summary["state_hash"].get<std::string>();
+        EXPECT_EQ(summary["collisions"].get<int>() + summary["wall_hits"].get<int>(), 700);
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+TEST_F(Events, GoOnAfterACheckpoint) {
+    write("hard.toml", hard_scene);
+    run_well({"run", "hard.toml", "--quiet", "--out", "once"});
+    run_well({"run", "hard.toml", "--quiet", "--out", "parts", "--steps", "613", "--set",
+              "output.checkpoint_every=1"});
+    run_well({"run", "--resume", latest_checkpoint("parts"), "--quiet"});
+    EXPECT_EQ(json_of(read("once/summary.json"))["state_hash"],
+              json_of(read("parts/summary.json"))["state_hash"]);
+    const std::string log = read("parts/log.csv");
+    EXPECT_EQ(read("once/log.csv").substr(0, 300), log.substr(0, 300));
+}
+
+TEST_F(Events, RefuseWhatTheyCannotDo) {
+    struct Case {
+        std::string from, to;
+        std::vector<std::string> says;
+    };
+    for (const Case& c : std::vector<Case>{
+             {"restitution = 0.9", "restitution = 1.1", {"gas.restitution", "1.1"}},
+             {"restitution = 0.9", "restitution = -0.1", {"gas.restitution", "-0.1"}},
+             {"particles = 400", "particles = 4000", {"packing fraction", "0.7405"}},
+             {"particles = 400", "particles = 2400", {"do not fit", "2400"}},
+             {"particles = 400", "particles = 400\nweight = 2", {"gas.weight", "stand for themselves"}},
+             {"particles = 400", "particles = 4\ndiameter = 6.5", {"domain", "two diameters"}},
+             {"temperature = 1\n\n[edmd]", "temperature = 0\n\n[edmd]", {"sides[0].temperature", "above 0"}},
+             {"duration = 10", "events = 0", {"edmd", "no end"}},
+             {"duration = 10", "duration = 10\ncell_edge = 20", {"edmd.cell_edge", "12"}},
+             {"duration = 10", "duration = 10\ncontact_time = -1", {"edmd.contact_time", "-1"}},
+             {"duration = 10", "duration = 10\nalgorithm = \"fast\"", {"edmd.algorithm", "improved"}},
+             {"[edmd]", "[dsmc]\ndt = 1\n[edmd]", {"dsmc", "is not read by method = \"edmd\""}},
+             {"[edmd]", "[[species]]\nparticles = 3\ndiameter = 0.001\n[edmd]", {"species.diameter", "100"}},
+         }) {
+        SCOPED_TRACE(c.to);
+        std::string scene = hard_scene;
+        const std::size_t at = scene.find(c.from);
+        ASSERT_NE(at, std::string::npos);
+        scene.replace(at, c.from.size(), c.to);
+        write("bad.toml", scene);
+        const Outcome result = run({"run", "bad.toml", "--quiet"});
+        EXPECT_EQ(result.code, code_of(Exit::invalid_input));
+        for (const std::string& word : c.says) EXPECT_SAYS(result.err, word);
+    }
+}
+
+TEST_F(Events, SayThatTheGasCollapses) {
+    const std::string flat = replaced(hard_scene, "dimension = 3\nupper = [12, 12, 12]", "upper = [18, 18]");
+    const std::string open =
+        replaced(flat, "[[sides]]\nside = \"-z\"\nkind = \"heated\"\ntemperature = 1\n", "");
+    const std::string strong = replaced(open, "restitution = 0.9", "restitution = 0.2");
+    const std::string scene = replaced(replaced(strong, "duration = 10", "duration = 1e6"), "= 400", "= 100");
+    write("collapse.toml", scene);
+    const Outcome result = run({"run", "collapse.toml", "--quiet"});
+    EXPECT_EQ(result.code, code_of(Exit::unstable));
+    EXPECT_SAYS(result.err, "inelastic collapse");
+    EXPECT_SAYS(result.err, "edmd.contact_time");
+}
+
+} // namespace sandlane::test

@@ -1,0 +1,91 @@
+// The scenes of event-driven dynamics, some of them smaller: what they show must happen.
+#include "core/error.hpp"
+#include "edmd/plan.hpp"
+#include "scene/reader.hpp"
+
+#include <gtest/gtest.h>
+
+namespace sandlane {
+
+namespace {
+
+struct Events {
+    scene::Scene scene;
+    edmd::Plan plan;
+    std::unique_ptr<edmd::Algorithm> run;
+
+    explicit Events(const std::string& name, const scene::Overrides& overrides = {})
+        : scene(scene::read_scene(std::string(SANDLANE_SOURCE_DIR) + "/data/scenes/" + name, overrides)),
+          plan(edmd::make_plan(scene, simd::choose_isa("auto"), {1, "test"})),
+          run(edmd::start(scene, plan, plan.isa)) {}
+
+    void to(double time) const { run->run(std::int64_t{1} << 40, time); }
+    [[nodiscard]] double temperature() const {
+        return edmd::observe(plan.setup, run->particles()).temperature;
+    }
+    // Measured over that of a uniform gas.
+    [[nodiscard]] double over_theory() const {
+        return temperature() /
+               analysis::cooling_curve(edmd::gas_of(plan), scene.gas.temperature, {run->time()}).front();
+    }
+};
+
+} // namespace
+
+// 5 %: what 2000 particles scatter by.
+TEST(ShippedEvents, CoolAsHaffSays) {
+    const Events gas("haff-edmd.toml");
+    EXPECT_TRUE(gas.plan.homogeneous);
+    for (const double t : {10.0, 100.0, 500.0}) {
+        gas.to(t);
+        EXPECT_NEAR(gas.over_theory(), 1, 0.05) << t;
+    }
+}
+
+TEST(ShippedEvents, HardSpheresFollowCarnahanAndStarling) {
+    const Events gas("hard-spheres.toml");
+    gas.to(10);
+    const edmd::Tally before = gas.run->tally();
+    gas.to(40);
+    const double n = 2000, t = 30;
+    EXPECT_NEAR(1 + (gas.run->tally().virial - before.virial) / (3 * n * t), 3.974, 0.01 * 3.974);
+    EXPECT_NEAR(2 * static_cast<double>(gas.run->tally().collisions - before.collisions) / (n * t), 10.067,
+                0.012 * 10.067);
+}
+
+// A quarter of the box is longer than the critical length still.
+TEST(SlowShippedEvents, ClustersForm) {
+    const Events gas("clusters.toml", {"gas.particles=25000", "domain.upper=[280.25, 280.25]"});
+    gas.to(10);
+    EXPECT_NEAR(gas.over_theory(), 1, 0.15);
+    gas.to(500);
+    EXPECT_GT(gas.over_theory(), 4);
+    EXPECT_GT(gas.run->tally().smallest_gap, -1e-10);
+}
+
+TEST(SlowShippedEvents, CollapseWithoutAContactTime) {
+    const Events guarded("collapse-plane.toml");
+    EXPECT_EQ(guarded.run->run(1000000), 1000000);
+    EXPECT_GT(guarded.run->tally().elastic, 1000);
+    const Events bare("collapse-plane.toml", {"edmd.contact_time=0"});
+    EXPECT_THROW(bare.run->run(1000000), Error);
+}
+
+// The floor keeps the discs up, densest above it.
+TEST(ShippedEvents, AFloorKeepsDiscsUp) {
+    const Events gas("vibrated-discs.toml");
+    gas.to(100);
+    double height = 0;
+    for (int k = 1; k <= 20; ++k) {
+        gas.to(100 + 5 * k);
+        for (const edmd::Particle& p : gas.run->particles()) {
+            EXPECT_GT(p.place[1], -0.6);
+            height += p.place[1] / 400 / 20;
+        }
+    }
+    EXPECT_GT(height, 10);
+    EXPECT_LT(height, 40);
+    EXPECT_GT(gas.run->tally().wall_energy, 0);
+}
+
+} // namespace sandlane
