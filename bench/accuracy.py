@@ -1,12 +1,15 @@
 """Error of known answers against the time it costs, for integrators, time steps and laws of force-based dynamics.
 
-Results lie in build/bench/accuracy: accuracy.csv, and for each case a CSV and a picture. docs/accuracy.md explains them.
+Results lie in build/bench/accuracy: accuracy.csv, and for each case a CSV and a picture; docs/accuracy.md explains
+them.
 """
 import csv
 import math
+import pathlib
 import shutil
 import subprocess
 import sys
+import tempfile
 
 import accuracy_cases as cases
 import accuracy_runs as runs
@@ -26,6 +29,11 @@ fields = ("case", "quantity", "program", "steps_per_contact", "error", "cost[ns]
 
 def evaluate(programs, chosen=None, steps=ratios):
     """Rows (case, quantity, program, ratio, error or nan where the program refuses the step)."""
+    with tempfile.TemporaryDirectory() as folder:
+        return evaluate_in(pathlib.Path(folder) / "run", programs, chosen, steps)
+
+
+def evaluate_in(folder, programs, chosen, steps):
     found = []
 
     def add(case, program, ratio, run, quantities):
@@ -35,7 +43,6 @@ def evaluate(programs, chosen=None, steps=ratios):
             errors = dict.fromkeys(quantities, math.nan)
         found.extend((case, quantity, program, ratio, error) for quantity, error in errors.items())
 
-    folder = results / "run"
     for name, law in cases.laws.items():
         if chosen and name not in chosen:
             continue

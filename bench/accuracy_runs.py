@@ -1,7 +1,6 @@
 """The cases of accuracy_cases.py in sandlane and LAMMPS: one run holds many collisions that begin at different moments
 within a step."""
 import csv
-import json
 import math
 import shutil
 import subprocess
@@ -145,7 +144,7 @@ def bounce(folder, integrator, ratio):
 
 
 def gas(folder, integrator, hertz, ratio):
-    """Largest relative error of the energy of 36 undamped discs at packing fraction 0.77 until time 4, where a speed is 0.5."""
+    """Largest relative error of the energy of 36 undamped discs at packing fraction 0.77 until time 4."""
     law = cases.Law(hertz, 1.0)
     side, spacing = 6, 2.02 * cases.radius
     random = numpy.random.default_rng(1)
@@ -202,7 +201,7 @@ write_dump all custom lammps.dump id x y vx vy omegaz radius mass modify sort id
 
 
 def costs(folder, integrators, with_lammps, rounds, seconds):
-    """{(program, hertz): seconds per particle-step} on 10 000 agitated discs at packing fraction 0.82, in turn; medians."""
+    """{(program, hertz): seconds per particle-step} on 10 000 agitated discs, packing fraction 0.82; medians of turns."""
     import lammps as race
     found = {}
     for name in ("linear", "hertz"):

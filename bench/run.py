@@ -236,7 +236,7 @@ def main():
     sub = command("accuracy", accuracy, "errors of known answers against the time they cost: integrators, steps and laws")
     sub.add_argument("--check", action="store_true", help="only the orders of convergence, against theory")
     sub.add_argument("--write", action="store_true", help="writes tables and pictures into docs")
-    sub.add_argument("--rounds", type=int, default=3, help="times that all integrators run in turn for their cost")
+    sub.add_argument("--rounds", type=int, default=5, help="times that all integrators run in turn for their cost")
     sub.add_argument("--seconds", type=float, default=0.5, help="aimed time of one run for the cost")
     sub = command("compare", compare, "two result files (build/bench/*.json) of the same cases")
     sub.add_argument("old")
