@@ -138,6 +138,16 @@ def spheres(options):
     return race.main(options)
 
 
+def accuracy(options):
+    sys.path.append(str(pathlib.Path(__file__).parent / "peers"))
+    try:
+        import accuracy as laboratory
+    except ImportError as missing:
+        print(f"skipped: {missing}; on Debian: apt-get install python3-scipy")
+        return skipped
+    return laboratory.main(options)
+
+
 def compare(options):
     old, new = ({}, {})
     for path, records in ((options.old, old), (options.new, new)):
@@ -223,6 +233,11 @@ def main():
     sub.add_argument("--seconds", type=float, default=0.5, help="least time of one run")
     sub = command("stability", stability, "event-driven dynamics, 1e9 events: no overlap, no drift of the energy (ten minutes)")
     sub.add_argument("--events", type=float, default=1e9, help="number of events")
+    sub = command("accuracy", accuracy, "errors of known answers against the time they cost: integrators, steps and laws")
+    sub.add_argument("--check", action="store_true", help="only the orders of convergence, against theory")
+    sub.add_argument("--write", action="store_true", help="writes tables and pictures into docs")
+    sub.add_argument("--rounds", type=int, default=3, help="times that all integrators run in turn for their cost")
+    sub.add_argument("--seconds", type=float, default=0.5, help="aimed time of one run for the cost")
     sub = command("compare", compare, "two result files (build/bench/*.json) of the same cases")
     sub.add_argument("old")
     sub.add_argument("new")
