@@ -16,7 +16,7 @@ inline constexpr double never_meets = std::numeric_limits<double>::infinity();
 // stay as they are until its next event. In the plane the third components are zero. word: faces of the box
 // crossed since the place was folded into it, 16 bits for each direction from the lowest, plus image_zero;
 // the class of the particle in the upper 16.
-struct alignas(64) HardState {
+struct HardState {
     double place[3], velocity[3]; // m, m/s
     double time;                  // s
     std::uint64_t word;
@@ -25,7 +25,7 @@ inline constexpr std::uint64_t image_zero = 0x4000, image_mask = 0xffff;
 inline constexpr std::int64_t most_images = 0x1fff; // of a particle between two events
 
 // What a particle does next.
-struct alignas(64) HardEvents {
+struct HardEvents {
     // The first two contacts found since the last complete search, the earlier first.
     double first_time, second_time;
     double crossing_time; // of a face of its cell
@@ -39,12 +39,13 @@ struct alignas(64) HardEvents {
     std::uint8_t crossing; // 2 axis + 1 upwards
     std::uint8_t missed;   // contacts were found that found no place in the two above
 };
-static_assert(sizeof(HardEvents) == 64);
+// A line of the cache each: columns begin with one.
+static_assert(sizeof(HardState) == 64 && sizeof(HardEvents) == 64);
 
 // Three numbers of particles and the way to more of them. meta: how many, and cell_slots + 1 times the number
 // of the next one; 0: none.
 inline constexpr std::uint32_t cell_slots = 3;
-struct alignas(16) HardCell {
+struct HardCell {
     std::uint32_t particle[cell_slots];
     std::uint32_t meta;
 

@@ -124,6 +124,13 @@ bool Simulation::still_meets(std::uint32_t i, std::uint32_t j, double time) cons
                                                        never_meets) == time;
 }
 
+// Of two whose last event was their collision, at the same time: whether it was with this image.
+template <int dimension> bool Simulation::just_met(std::uint32_t i, std::uint32_t j) const {
+    const laws::Flight<double> a = flight_of(states_[i]), b = flight_of(states_[j]);
+    const double reach = radius_[kind_of(states_[i])] + radius_[kind_of(states_[j])];
+    return laws::touches(a.place - b.place - shift_of<dimension>(i, j), reach);
+}
+
 template <int dimension, bool special> void Simulation::search(std::uint32_t i, int layer) {
     HardEvents& e = events_[i];
     simd::HardFound start{never_meets, never_meets, no_partner, no_partner, false};
@@ -141,9 +148,9 @@ template <int dimension, bool special> void Simulation::search(std::uint32_t i, 
     }
     simd::HardFound found = start;
     search_near_(view_, i, layer, no_partner, found);
-    // Two that just met do not meet again before something else happens to one of them.
+    // Two that just met do not meet again before something else happens to one of them; another image may.
     if (!simd::is_wall(e.last) && (found.first == e.last || found.second == e.last) &&
-        events_[e.last].last == i) {
+        events_[e.last].last == i && just_met<dimension>(i, e.last)) {
         found = start;
         search_near_(view_, i, layer, e.last, found);
     }

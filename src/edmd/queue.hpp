@@ -12,7 +12,7 @@
 namespace sandlane::edmd {
 
 // Entries of a bucket, and the number of the block that goes on; 0: none.
-struct alignas(32) QueueBlock {
+struct QueueBlock {
     std::uint32_t particle[7];
     std::uint32_t meta; // as HardCell::meta
 };

@@ -46,6 +46,7 @@ private:
     template <int dimension, bool special>
     [[nodiscard]] bool still_meets(std::uint32_t i, std::uint32_t j, double time) const;
     template <int dimension> [[nodiscard]] Vector<double> shift_of(std::uint32_t i, std::uint32_t j) const;
+    template <int dimension> [[nodiscard]] bool just_met(std::uint32_t i, std::uint32_t j) const;
     template <int dimension, bool special> void predict_all();
     template <int dimension, class Row> void for_rows(std::uint32_t i, int layer, const Row& row) const;
     template <int dimension> void fetch_cells(std::uint32_t i, int layer) const;

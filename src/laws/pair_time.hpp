@@ -38,6 +38,11 @@ SANDLANE_INLINE R meeting_in_space(const Vector<R>& r, const Vector<R>& v, const
     return select(approach, met, never);
 }
 
+// Whether surfaces touch, but for rounding: how one knows the image with which a particle has just collided.
+inline bool touches(const Vector<double>& r, double reach) {
+    return dot(r, r) <= (1 + 1e-9) * (reach * reach);
+}
+
 // What the flight of a particle is known by: place and velocity at `time`.
 template <class R> struct Flight {
     Vector<R> place, velocity;

@@ -284,6 +284,36 @@ TEST(EdmdEvents, WrapsExactly) {
     EXPECT_EQ(p.image[1], -500000);
 }
 
+// Two alone in a periodic box meet again from the other side.
+TEST(EdmdEvents, TheSamePairThroughTheBox) {
+    edmd::Setup s;
+    s.dimension = 2;
+    s.upper[0] = s.upper[1] = 9;
+    with_both(s, {at(0, {1, 4, 0}, {1, 0, 0}), at(1, {5, 4, 0}, {-1, 0, 0})}, [](edmd::Algorithm& run) {
+        for (int k = 0; k < 40; ++k) {
+            ASSERT_EQ(run.run(1, 1e6), 1);
+            EXPECT_NEAR(run.time(), 1.5 + 3.5 * k, 1e-11);
+        }
+        EXPECT_GT(run.tally().smallest_gap, -1e-13);
+    });
+}
+
+// A gas so thin that a particle often meets the same one again, by way of the box.
+TEST(EdmdEvents, ThinGasInASmallBox) {
+    edmd::Setup s;
+    s.dimension = 3;
+    s.upper[0] = s.upper[1] = s.upper[2] = 12;
+    s.restitution.eps = 0.5;
+    const auto particles = edmd::make_particles(s, {20}, 1.0);
+    std::uint64_t hash = 0;
+    with_both(s, particles, [&](edmd::Algorithm& run) {
+        EXPECT_EQ(run.run(600), 600);
+        EXPECT_GT(run.tally().smallest_gap, -1e-12);
+        if (hash == 0) hash = run.log().hash();
+        EXPECT_EQ(run.log().hash(), hash);
+    });
+}
+
 // A field along a periodic direction: ever faster through the box, 50 000 times.
 TEST(EdmdEvents, FallsThroughThePeriodicBox) {
     edmd::Setup s;

@@ -61,7 +61,8 @@ SimpleAlgorithm::Next SimpleAlgorithm::next_of_pair(std::size_t i, std::size_t j
     Next next;
     next.first = i;
     next.second = j;
-    if (a.last == static_cast<std::int64_t>(j) && b.last == static_cast<std::int64_t>(i)) return next;
+    // Two that just met do not meet again before something else happens to one of them; another image may.
+    const bool met = a.last == static_cast<std::int64_t>(j) && b.last == static_cast<std::int64_t>(i);
     laws::Flight<double> p = a.flight, q = b.flight;
     fly(setup_, p, clock_.now - p.time);
     fly(setup_, q, clock_.now - q.time);
@@ -85,6 +86,7 @@ SimpleAlgorithm::Next SimpleAlgorithm::next_of_pair(std::size_t i, std::size_t j
                 for (std::size_t d = 0; d < 3; ++d)
                     if (setup_.periodic[d] && d < static_cast<std::size_t>(setup_.dimension))
                         shift[d] = static_cast<double>(k[d]) * setup_.length(static_cast<int>(d));
+                if (met && laws::touches(a.flight.place - b.flight.place - vector_of(shift), reach)) continue;
                 const double t = pair_time(setup_, a.flight, b.flight, vector_of(shift), reach);
                 if (t < next.time) next = {t, Next::Kind::pair, i, j, k};
             }
