@@ -48,8 +48,8 @@ template <int dimension> struct ForceRow<xsimd::avx512bw, dimension, 8> {
         _mm512_storeu_pd(to, _mm512_add_pd(_mm512_loadu_pd(to), _mm512_loadu_pd(row)));
     }
     static SANDLANE_INLINE void add_mirrored(double* to, const double* row) {
-        const __m512d signs = _mm512_insertf64x4(_mm512_castpd256_pd512(mirror_signs<dimension, 0>()),
-                                                 mirror_signs<dimension, 4>(), 1);
+        const __m256d low = mirror_signs<dimension, 0>(), high = mirror_signs<dimension, 4>();
+        const __m512d signs = _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
         const __m512d other = _mm512_xor_pd(signs, _mm512_loadu_pd(row));
         _mm512_storeu_pd(to, _mm512_add_pd(_mm512_loadu_pd(to), other));
     }

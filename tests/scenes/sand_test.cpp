@@ -30,7 +30,7 @@ double mean_flow(const Snapshot& s, double low, double high) {
 }
 
 md::Simulation hopper(const std::string& lips, int seed) {
-    return shipped("hopper.toml", {"materials.0.young=75e6", "materials.0.dissipation=35e-6",
+    return shipped("hopper.toml", {"materials.0.young=75e6", "materials.0.dissipation=35e-6", "md.dt=5e-6",
                                    "grains.0.count=300", "md.duration=1.5", "seed=" + std::to_string(seed),
                                    "walls.0.points=[[0.04, 0.36], [0.04, 0.1388], [" + lips + ", 0.05]]"});
 }
@@ -61,9 +61,9 @@ struct Rest {
 };
 
 Rest heap(const std::string& law) {
-    md::Simulation sim =
-        shipped("heap-" + law + ".toml", {"materials.0.young=150e6", "materials.0.dissipation=35e-6",
-                                          "grains.0.count=200", "grains.0.rate=300", "md.duration=3.5"});
+    md::Simulation sim = shipped("heap-" + law + ".toml",
+                                 {"materials.0.young=150e6", "materials.0.dissipation=35e-6", "md.dt=5e-6",
+                                  "grains.0.count=200", "grains.0.rate=300", "md.duration=3.5"});
     sim.run(sim.plan().steps * 5 / 7);
     const double before = mean_height(sim.snapshot());
     sim.run(sim.plan().steps - sim.step());

@@ -26,8 +26,8 @@ Vec centre_of_mass(const Snapshot& s) {
 }
 
 TEST(SlowShippedScenes, HourglassRunsThroughAtASteadyRate) {
-    md::Simulation sim =
-        shipped("hourglass.toml", {"materials.0.young=80e6", "materials.0.dissipation=32e-6"});
+    md::Simulation sim = shipped("hourglass.toml",
+                                 {"materials.0.young=80e6", "materials.0.dissipation=32e-6", "md.dt=7.5e-6"});
     std::vector<double> through; // grains below the neck, every tenth of a second
     double most_energy = 0;
     run_to_the_end(sim, 22, [&](const md::Simulation& now) {
@@ -55,7 +55,8 @@ TEST(SlowShippedScenes, HourglassRunsThroughAtASteadyRate) {
 }
 
 TEST(SlowShippedScenes, DrumLiftsItsFillingInTheDirectionOfRotation) {
-    md::Simulation sim = shipped("drum.toml", {"materials.0.young=150e6", "materials.0.dissipation=28e-6"});
+    md::Simulation sim =
+        shipped("drum.toml", {"materials.0.young=150e6", "materials.0.dissipation=28e-6", "md.dt=1.2e-5"});
     std::vector<double>
         angles; // of the surface: it is perpendicular to the line from the axis to the centre of mass
     run_to_the_end(sim, 40, [&](const md::Simulation& now) {
@@ -117,8 +118,8 @@ struct Gas {
 };
 
 TEST(SlowShippedScenes, GranularGasCoolsSlowerThanHaffOnceItClusters) {
-    md::Simulation sim =
-        shipped("granular-gas.toml", {"materials.0.stiffness=71e3", "materials.0.damping=0.665"});
+    md::Simulation sim = shipped("granular-gas.toml",
+                                 {"materials.0.stiffness=71e3", "materials.0.damping=0.665", "md.dt=8e-6"});
     const Gas gas(sim);
     const double n = static_cast<double>(sim.snapshot().size());
     const double momentum_scale = n * gas.mass * std::sqrt(gas.temperature / gas.mass);

@@ -45,7 +45,7 @@ TEST(SlowShippedScenes, SiloEmptiesAtBeverloosRate) {
 }
 
 TEST(SlowShippedScenes, DrumInSpaceMixes) {
-    md::Simulation sim = shipped("drum-3d.toml", {"grains.0.count=500", "md.duration=2.5"});
+    md::Simulation sim = shipped("drum-3d.toml", {"grains.0.count=500", "md.duration=2.5", "md.dt=1.4e-5"});
     const auto mixing = analysis::make_analysis(sim.scene(), sim.scene().analyses[0]);
     std::vector<double> index;
     run_to_the_end(sim, 25, [&](const md::Simulation& now) {
