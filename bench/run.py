@@ -5,6 +5,7 @@ Rates are particle-steps per second; beside each stands the share of the rooflin
 memory and arithmetic units, both measured in the same run, allow for the bytes and operations that a step needs.
 """
 import argparse
+import importlib
 import json
 import pathlib
 import subprocess
@@ -122,30 +123,29 @@ def scenes(options):
         print(f"{name:<22}{row.steps:>8}{cells}{row.loss:>13.1%}", flush=True)
 
 
-def peers(options):
+def peer(name):
+    """A module of bench or bench/peers; None and a message where Python lacks what it needs."""
     sys.path.append(str(pathlib.Path(__file__).parent / "peers"))
     try:
-        import lammps
+        return importlib.import_module(name)
     except ImportError as missing:
         print(f"skipped: {missing}; on Debian: apt-get install python3-scipy")
-        return skipped
-    return lammps.main(options, skipped)
+        return None
+
+
+def peers(options):
+    lammps = peer("lammps")
+    return lammps.main(options, skipped) if lammps else skipped
 
 
 def spheres(options):
-    sys.path.append(str(pathlib.Path(__file__).parent / "peers"))
-    import spheres as race
-    return race.main(options)
+    race = peer("spheres")
+    return race.main(options) if race else skipped
 
 
 def accuracy(options):
-    sys.path.append(str(pathlib.Path(__file__).parent / "peers"))
-    try:
-        import accuracy as laboratory
-    except ImportError as missing:
-        print(f"skipped: {missing}; on Debian: apt-get install python3-scipy")
-        return skipped
-    return laboratory.main(options)
+    laboratory = peer("accuracy")
+    return laboratory.main(options) if laboratory else skipped
 
 
 def compare(options):

@@ -1,5 +1,6 @@
 #include "dsmc/plan.hpp"
 
+#include "analysis/gas_scene.hpp"
 #include "core/error.hpp"
 #include "dsmc/theory.hpp"
 #include "dsmc/tiling.hpp"
@@ -12,17 +13,6 @@ namespace sandlane::dsmc {
 
 namespace {
 
-void copy(const Vec& from, double (&to)[3]) {
-    to[0] = from.x;
-    to[1] = from.y;
-    to[2] = from.z;
-}
-
-constexpr double inertia_of(scene::GasBody body) {
-    constexpr double inertia[] = {0.4, 0.5, 2.0 / 3, 1};
-    return inertia[static_cast<std::size_t>(body)];
-}
-
 simd::GasSide side_of(const scene::GasSide& from, double mass) {
     simd::GasSide side;
     side.kind =
@@ -31,17 +21,16 @@ simd::GasSide side_of(const scene::GasSide& from, double mass) {
     side.eps_t = from.tangential_restitution;
     side.thermal_speed = std::sqrt(from.temperature / mass);
     side.accommodation = from.accommodation;
-    copy(from.velocity, side.velocity);
-    const double turns = from.phase / (2 * std::numbers::pi);
-    side.motion = {from.amplitude, from.frequency, turns - std::floor(turns)};
+    analysis::copy(from.velocity, side.velocity);
+    side.motion = analysis::oscillation_of(from);
     return side;
 }
 
 Setup setup_of(const scene::Scene& scene) {
     Setup s;
     s.dimension = static_cast<int>(scene.domain.dimension);
-    copy(scene.domain.lower, s.lower);
-    copy(scene.domain.upper, s.upper);
+    analysis::copy(scene.domain.lower, s.lower);
+    analysis::copy(scene.domain.upper, s.upper);
     if (s.dimension == 2) s.lower[2] = 0, s.upper[2] = 1;
     const scene::Gas& gas = scene.gas;
     for (int d = 0; d < s.dimension; ++d)
@@ -60,9 +49,8 @@ Setup setup_of(const scene::Scene& scene) {
     s.rough = gas.tangential_restitution != 1;
     s.tangential = gas.tangential_restitution;
     s.friction = gas.friction;
-    s.inertia = inertia_of(gas.body);
-    s.restitution = {static_cast<laws::Restitution::Model>(gas.model), gas.restitution, gas.dissipation,
-                     gas.critical_speed, gas.exponent};
+    s.inertia = analysis::inertia_of(gas.body);
+    s.restitution = analysis::restitution_of(gas);
     s.scheme = static_cast<simd::GasScheme>(scene.dsmc.scheme);
     s.enskog = scene.dsmc.enskog;
     s.dt = scene.dsmc.dt;

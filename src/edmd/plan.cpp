@@ -1,5 +1,6 @@
 #include "edmd/plan.hpp"
 
+#include "analysis/gas_scene.hpp"
 #include "core/error.hpp"
 #include "edmd/reference/simple.hpp"
 #include "edmd/simulation.hpp"
@@ -13,12 +14,6 @@ namespace sandlane::edmd {
 
 namespace {
 
-void copy(const Vec& from, double (&to)[3]) {
-    to[0] = from.x;
-    to[1] = from.y;
-    to[2] = from.z;
-}
-
 Side side_of(const scene::GasSide& from) {
     Side side;
     side.kind = from.kind == scene::SideKind::heated ? Side::Kind::heated : Side::Kind::reflecting;
@@ -26,19 +21,17 @@ Side side_of(const scene::GasSide& from) {
     side.eps_t = from.tangential_restitution;
     side.temperature = from.temperature;
     side.accommodation = from.accommodation;
-    copy(from.velocity, side.velocity);
-    const double turns = from.phase / (2 * std::numbers::pi);
-    side.motion = {from.amplitude, from.frequency, turns - std::floor(turns)};
+    analysis::copy(from.velocity, side.velocity);
+    side.motion = analysis::oscillation_of(from);
     return side;
 }
 
 Setup setup_of(const scene::Scene& scene) {
-    constexpr double inertia[] = {0.4, 0.5, 2.0 / 3, 1};
     Setup s;
     s.dimension = static_cast<int>(scene.domain.dimension);
-    copy(scene.domain.lower, s.lower);
-    copy(scene.domain.upper, s.upper);
-    copy(scene.domain.gravity, s.gravity);
+    analysis::copy(scene.domain.lower, s.lower);
+    analysis::copy(scene.domain.upper, s.upper);
+    analysis::copy(scene.domain.gravity, s.gravity);
     if (s.dimension == 2) s.lower[2] = 0, s.upper[2] = 1, s.gravity[2] = 0;
     const scene::Gas& gas = scene.gas;
     for (int d = 0; d < s.dimension; ++d) s.periodic[d] = scene.domain.periodic[static_cast<std::size_t>(d)];
@@ -46,11 +39,10 @@ Setup setup_of(const scene::Scene& scene) {
         const auto n = static_cast<std::size_t>(side.side);
         s.side[n / 2][n % 2] = side_of(side);
     }
-    const double q = inertia[static_cast<std::size_t>(gas.body)];
+    const double q = analysis::inertia_of(gas.body);
     s.classes = {{0.5 * gas.diameter, gas.mass, q}};
     for (const scene::Species& more : scene.species) s.classes.push_back({0.5 * more.diameter, more.mass, q});
-    s.restitution = {static_cast<laws::Restitution::Model>(gas.model), gas.restitution, gas.dissipation,
-                     gas.critical_speed, gas.exponent};
+    s.restitution = analysis::restitution_of(gas);
     s.rough = gas.tangential_restitution != 1;
     s.tangential = gas.tangential_restitution;
     s.friction = gas.friction;

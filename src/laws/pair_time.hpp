@@ -10,28 +10,22 @@ namespace sandlane::laws {
 // Time from now to the contact of particles at relative place r and velocity v whose radii sum up to `reach`:
 // the smaller root of |r + v t| = reach, in forms without cancellation; `never` if there is none. Particles
 // that touch or overlap by rounding and approach meet now.
-template <class R>
-SANDLANE_INLINE R meeting_in_plane(const Vector<R>& r, const Vector<R>& v, const R& reach, const R& never) {
-    const R a = v.x * v.x + v.y * v.y, b = r.x * v.x + r.y * v.y;
-    const R square = reach * reach, c = (r.x * r.x + r.y * r.y) - square;
-    const R turn = r.x * v.y - r.y * v.x;
-    const R under = a * square - turn * turn;
-    const auto approach = b < R(0.0), reached = (under >= R(0.0));
+template <int dimension, class R>
+SANDLANE_INLINE R meeting(const Vector<R>& r, const Vector<R>& v, const R& reach, const R& never) {
+    R a = v.x * v.x + v.y * v.y, b = r.x * v.x + r.y * v.y, distance = r.x * r.x + r.y * r.y;
+    const R square = reach * reach, turn = r.x * v.y - r.y * v.x;
+    R across = turn * turn;
+    if constexpr (dimension == 3) {
+        a = dot(v, v);
+        b = dot(r, v);
+        distance = dot(r, r);
+        const Vector<R> turns = cross(r, v);
+        across = dot(turns, turns);
+    }
+    const R c = distance - square, under = a * square - across;
+    const auto approach = b < R(0.0), reached = under >= R(0.0);
     const R gap = max(c, R(0.0));
     // Touching is decided before the discriminant, which may be rounded below zero then.
-    const R root = sqrt(max(under, R(0.0)));
-    const R time = gap / (select(approach, root - b, R(1.0)));
-    const R met = select(reached, time, select(c > R(0.0), never, R(0.0)));
-    return select(approach, met, never);
-}
-template <class R>
-SANDLANE_INLINE R meeting_in_space(const Vector<R>& r, const Vector<R>& v, const R& reach, const R& never) {
-    const R a = dot(v, v), b = dot(r, v);
-    const R square = reach * reach, c = dot(r, r) - square;
-    const Vector<R> turn = cross(r, v);
-    const R under = a * square - dot(turn, turn);
-    const auto approach = b < R(0.0), reached = (under >= R(0.0));
-    const R gap = max(c, R(0.0));
     const R root = sqrt(max(under, R(0.0)));
     const R time = gap / (select(approach, root - b, R(1.0)));
     const R met = select(reached, time, select(c > R(0.0), never, R(0.0)));
@@ -81,13 +75,11 @@ SANDLANE_INLINE R pair_time(Flight<R> i, Flight<R> j, const Vector<R>& shift, co
     r.y = (i.place.y - j.place.y) - shift.y;
     v.x = i.velocity.x - j.velocity.x;
     v.y = i.velocity.y - j.velocity.y;
-    if constexpr (dimension == 2)
-        return base + meeting_in_plane(r, v, reach, never);
-    else {
+    if constexpr (dimension == 3) {
         r.z = (i.place.z - j.place.z) - shift.z;
         v.z = i.velocity.z - j.velocity.z;
-        return base + meeting_in_space(r, v, reach, never);
     }
+    return base + meeting<dimension>(r, v, reach, never);
 }
 
 } // namespace sandlane::laws

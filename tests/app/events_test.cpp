@@ -1,8 +1,6 @@
 // Event-driven dynamics through the program: run, compare, checkpoints, outputs, refusals.
 #include "program.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 
 namespace sandlane::test {
@@ -32,10 +30,6 @@ duration = 10
 )";
 
 class Events : public App {};
-
-nlohmann::json json_of(const std::string& text) {
-    return nlohmann::json::parse(text);
-}
 
 } // namespace
 

@@ -1,8 +1,6 @@
 // Gases through the program: run, compare, checkpoints, outputs, refusals.
 #include "program.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 
 namespace sandlane::test {
@@ -35,10 +33,6 @@ duration = 20
 )";
 
 class Gas : public App {};
-
-nlohmann::json json_of(const std::string& text) {
-    return nlohmann::json::parse(text);
-}
 
 } // namespace
 

@@ -6,6 +6,7 @@
 #include "support/says.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <map>
@@ -20,6 +21,10 @@
 namespace sandlane::test {
 
 namespace fs = std::filesystem;
+
+inline nlohmann::json json_of(const std::string& text) {
+    return nlohmann::json::parse(text);
+}
 
 struct Call {
     std::vector<std::string> arguments;

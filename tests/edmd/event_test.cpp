@@ -165,23 +165,19 @@ TEST(EdmdEvents, ThreeDiscsInARow) {
 
 TEST(EdmdEvents, GrazingPairs) {
     const Vector<double> v{-1, 0, 0};
-    const auto time = [&](double eta) {
-        return laws::meeting_in_plane<double>({10, 1 - eta, 0}, v, 1.0, never);
-    };
+    const auto time = [&](double eta) { return laws::meeting<2>({10, 1 - eta, 0}, v, 1.0, never); };
     EXPECT_NEAR(time(1e-2), 9.858932640203, 1e-11);
     EXPECT_NEAR(time(1e-6), 9.998585786791, 1e-11);
     EXPECT_NEAR(time(1e-10), 9.999985857864, 1e-11);
     EXPECT_NEAR(time(1e-14), 9.9999998586, 1e-9); // what 1 - eta is rounded by
     EXPECT_EQ(time(-1e-10), never);
     // A discriminant of zero is an event or none, and a harmless one.
-    for (const double t : {time(0), laws::meeting_in_space<double>({10, 1, 0}, v, 1.0, never)})
+    for (const double t : {time(0), laws::meeting<3>({10, 1, 0}, v, 1.0, never)})
         EXPECT_TRUE(t == never || std::abs(t - 10) < 1e-7);
 }
 
 TEST(EdmdEvents, TouchingPairs) {
-    const auto time = [](double x, double v) {
-        return laws::meeting_in_plane<double>({x, 0, 0}, {v, 0, 0}, 1.0, never);
-    };
+    const auto time = [](double x, double v) { return laws::meeting<2>({x, 0, 0}, {v, 0, 0}, 1.0, never); };
     EXPECT_EQ(time(1, -1), 0);
     EXPECT_EQ(time(1, 1), never);
     EXPECT_EQ(time(1 - 1e-15, -1), 0); // overlap by rounding
