@@ -350,7 +350,7 @@ double viscosity(GasModel model, double occupation, std::int32_t rows, double gu
 // Half full, flows do not carry each other (g = 0) and fluctuations do not add to the viscosity: that of
 // Boltzmann, for the rule whose collisions leave no invariants but mass and momentum. Measured, over three
 // starts and 32 to 128 rows: 1.015 +- 0.003 times as much.
-TEST(Gas, ViscosityOfBoltzmannAtHalfFilling) {
+TEST(SlowGas, ViscosityOfBoltzmannAtHalfFilling) {
     EXPECT_NEAR(viscosity(GasModel::fhp3, 0.5, 64, 0.075) / 0.075, 1, 0.03);
 }
 
@@ -359,7 +359,7 @@ TEST(Gas, ViscosityOfBoltzmannAtHalfFilling) {
 // 0.05 from 32 to 128 rows at d = 0.2 (<u^2>: of the area of a site, 3 d (1 - d)/rho^2 sqrt(3)/2); sound adds
 // to it. Measured over three starts: 1.116 +- 0.014 of Boltzmann's with 32 rows, 1.185 with 64, 1.226 +-
 // 0.009 with 128.
-TEST(Gas, ViscosityGrowsWithTheLogarithmOfTheSize) {
+TEST(SlowGas, ViscosityGrowsWithTheLogarithmOfTheSize) {
     constexpr double boltzmann = .14816434;
     const double small = viscosity(GasModel::fhp3, 0.2, 32, boltzmann) / boltzmann,
                  large = viscosity(GasModel::fhp3, 0.2, 128, boltzmann) / boltzmann;
@@ -369,7 +369,7 @@ TEST(Gas, ViscosityGrowsWithTheLogarithmOfTheSize) {
 }
 
 // Of the other rules by the same means, three starts: 1.044 +- 0.016 and 1.110 +- 0.009 at d = 0.2, 128 rows.
-TEST(Gas, ViscosityOfOtherRules) {
+TEST(SlowGas, ViscosityOfOtherRules) {
     EXPECT_NEAR(viscosity(GasModel::fhp1, 0.2, 128, .68880208) / .68880208, 1.044, 0.07);
     EXPECT_NEAR(viscosity(GasModel::fhp2, 0.2, 128, .26877520) / .26877520, 1.110, 0.04);
 }

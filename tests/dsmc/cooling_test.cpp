@@ -21,7 +21,7 @@ dsmc::Simulation simulate(const dsmc::Setup& s, std::uint32_t n, double temperat
 
 // An elastic gas in equilibrium: n F omega/2 collisions, g2 times as many after Enskog. Statistical error
 // 1/sqrt(collisions), cells of 20 particles lose no collisions because N (N - 1) is unbiased.
-TEST(Cooling, CollisionRate) {
+TEST(SlowCooling, CollisionRate) {
     for (const int d : {2, 3}) {
         for (const bool enskog : {false, true}) {
             const std::uint32_t n = 20000;

@@ -64,7 +64,7 @@ TEST(EdmdGas, DeterministicRegression) {
 
 // Collision rate and equation of state of elastic particles: 1.2 % and 1 % (12.9), of 2e5 collisions. In
 // space at 0.49, near freezing, within 2 %: Carnahan and Starling, and 500 particles only.
-TEST(EdmdGas, RateAndEquationOfState) {
+TEST(SlowEdmdGas, RateAndEquationOfState) {
     struct Point {
         int dimension;
         double phi, rate, z;
@@ -104,7 +104,7 @@ TEST(EdmdGas, RateAndEquationOfState) {
 }
 
 // Close to the closest packing Z -> d/(1 - phi/phi_cp) to leading order.
-TEST(EdmdGas, NearClosestPacking) {
+TEST(SlowEdmdGas, NearClosestPacking) {
     struct Point {
         int dimension;
         double phi, closest;
@@ -130,7 +130,7 @@ TEST(EdmdGas, NearClosestPacking) {
 }
 
 // Haff's law within 2 % while homogeneous (12.10), of 4000 particles.
-TEST(EdmdGas, CoolsAsHaffSays) {
+TEST(SlowEdmdGas, CoolsAsHaffSays) {
     struct Point {
         int dimension;
         double phi, eps;
@@ -152,7 +152,7 @@ TEST(EdmdGas, CoolsAsHaffSays) {
 }
 
 // A gas between walls of one temperature takes that temperature; walls of two drive a flow of heat.
-TEST(EdmdGas, HeatedWalls) {
+TEST(SlowEdmdGas, HeatedWalls) {
     const std::uint32_t n = 400;
     edmd::Setup s = test::hard_gas(3, 0.1, 1, n);
     s.periodic[2] = false;
@@ -173,7 +173,7 @@ TEST(EdmdGas, HeatedWalls) {
 }
 
 // Elastic particles of two masses share one temperature; inelastic ones do not, and the heavy are hotter.
-TEST(EdmdGas, TemperaturesOfMixtures) {
+TEST(SlowEdmdGas, TemperaturesOfMixtures) {
     for (const double eps : {1.0, 0.85}) {
         edmd::Setup s = test::hard_gas(3, 0.1, eps, 1200);
         s.classes = {{0.5, 1, 0.4}, {0.5, 8, 0.4}};
@@ -193,7 +193,7 @@ TEST(EdmdGas, TemperaturesOfMixtures) {
 }
 
 // Without rules an inelastic gas in the plane runs into collapse; with a contact time it goes on.
-TEST(EdmdGas, CollapseInThePlane) {
+TEST(SlowEdmdGas, CollapseInThePlane) {
     const std::uint32_t n = 200;
     edmd::Setup s = test::hard_gas(2, 0.25, 0.3, n);
     const auto particles = edmd::make_particles(s, {n}, 1.0);

@@ -265,7 +265,7 @@ double loss(const scene::Scene& s, const analysis::Snapshot& now,
 
 // The sum over steps is of first order: contacts begin within a step, with the dashpot at full power. Some
 // 1e-3.
-TEST(Balance, LossesCountedIndependently) {
+TEST(SlowBalance, LossesCountedIndependently) {
     for (const int dimension : {2, 3})
         for (const NormalLaw normal :
              {NormalLaw::linear_dashpot, NormalLaw::viscoelastic, NormalLaw::cohesive_viscoelastic}) {
@@ -287,7 +287,7 @@ TEST(Balance, LossesCountedIndependently) {
 }
 
 // What contacts hold comes back as motion, and what they took does not, at every moment.
-TEST(Balance, ContactsGiveBackNoMoreThanTheyHold) {
+TEST(SlowBalance, ContactsGiveBackNoMoreThanTheyHold) {
     for (const int dimension : {2, 3})
         for (const NormalLaw normal : normal_laws)
             for (const auto tangential : {TangentialLaw::none, TangentialLaw::haff_werner,

@@ -55,7 +55,7 @@ TEST(Derived, CollisionTimesAndMasses) {
     EXPECT_NEAR(md::derive(s, needs).collision_time, 3.2318662744e-4, 1e-12);
 }
 
-TEST(Wall, BouncesToTheReferenceHeight) { // eps 0.8: height after 5 bounces 0.0107374182 for drop 0.1 m
+TEST(SlowWall, BouncesToTheReferenceHeight) { // eps 0.8: height after 5 bounces 0.0107374182 for drop 0.1 m
     scene::Scene s = empty_scene();
     s.domain.gravity = {0, -9.81, 0};
     const double m = 1e-3, k = 1e6, z = 0.0743551;
@@ -194,7 +194,7 @@ TEST(Lists, MemoryNeedsThem) {
     EXPECT_THROW(simulate(s, {grain(0, {0, 0, 0}, {}, 0.01, 1e-3)}), Error);
 }
 
-TEST(Conservation, MomentumAndEnergyOfElasticGas) { // 36 discs R 0.5, box 9, k 1e4, t = 10
+TEST(SlowConservation, MomentumAndEnergyOfElasticGas) { // 36 discs R 0.5, box 9, k 1e4, t = 10
     scene::Scene s = empty_scene();
     s.domain.lower = {0, 0, 0};
     s.domain.upper = {9, 9, 0};

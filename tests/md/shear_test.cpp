@@ -133,7 +133,7 @@ TEST(Shear, DrivesTheCell) {
 // Without loss all work of the shear is there as energy; what is missing is the error of the integrator, some
 // 1e-4 of what collisions exchange, and that of a sum over steps, both of the second order or better.
 // Both ways of shearing.
-TEST(Shear, WorkIsBooked) {
+TEST(SlowShear, WorkIsBooked) {
     for (const int dimension : {2, 3, -2}) {
         Cell c = cell(std::abs(dimension), scene::TangentialLaw::none, dimension > 0 ? 1.0 : -1.0);
         c.scene.materials[0].damping = 0;

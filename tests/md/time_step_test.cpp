@@ -111,7 +111,7 @@ TEST(AdaptiveTimeStep, GrowsWhenACloudCools) {
 }
 
 // Energy that contacts took by the adaptive step and by a small fixed one: both to the error of collisions.
-TEST(AdaptiveTimeStep, TakesAsMuchEnergyAsAFixedStep) {
+TEST(SlowAdaptiveTimeStep, TakesAsMuchEnergyAsAFixedStep) {
     Cloud c = cloud(2);
     md::Simulation adaptive = make_simulation(c.scene, c.grains, simd::available_isas().back());
     const double before = adaptive.observe().energy();

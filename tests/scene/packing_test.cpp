@@ -134,7 +134,7 @@ double bond_order(const Scene& scene, const std::vector<GrainState>& grains) {
     return std::sqrt(std::max(0.0, sum / count));
 }
 
-TEST(DensePacking, OfSpheresIsNoCrystal) {
+TEST(SlowDensePacking, OfSpheresIsNoCrystal) {
     Scene scene = random_scene(3, 4000, 0.6, true);
     Grains& g = scene.grains[0];
     g.sizes = {SizeLaw::constant, 1, 1};

@@ -16,7 +16,7 @@ namespace {
 
 std::unique_ptr<automata::Model> shipped_model(const std::string& name, const scene::Overrides& overrides) {
     const scene::Scene s =
-        scene::read_scene(std::string(SANDLANE_SOURCE_DIR) + "/data/scenes/" + name, overrides);
+        scene::read_scene(std::string(SANDLANE_SOURCE_DIR "/data/scenes/") + name, overrides);
     return automata::make_model(s, {simd::available_isas().back(), 1});
 }
 

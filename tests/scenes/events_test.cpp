@@ -15,7 +15,7 @@ struct Events {
     std::unique_ptr<edmd::Algorithm> run;
 
     explicit Events(const std::string& name, const scene::Overrides& overrides = {})
-        : scene(scene::read_scene(std::string(SANDLANE_SOURCE_DIR) + "/data/scenes/" + name, overrides)),
+        : scene(scene::read_scene(std::string(SANDLANE_SOURCE_DIR "/data/scenes/") + name, overrides)),
           plan(edmd::make_plan(scene, simd::choose_isa("auto"), {1, "test"})),
           run(edmd::start(scene, plan, plan.isa)) {}
 

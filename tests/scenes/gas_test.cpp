@@ -20,7 +20,7 @@ struct Gas {
     dsmc::Simulation simulation;
 
     Gas(const std::string& name, const scene::Overrides& overrides)
-        : scene(scene::read_scene(std::string(SANDLANE_SOURCE_DIR) + "/data/scenes/" + name, overrides)),
+        : scene(scene::read_scene(std::string(SANDLANE_SOURCE_DIR "/data/scenes/") + name, overrides)),
           plan(dsmc::make_plan(scene, simd::choose_isa("auto"), {1, "test"})),
           simulation(plan.setup,
                      dsmc::maxwellian(plan.setup, static_cast<std::uint32_t>(scene.gas.particles),

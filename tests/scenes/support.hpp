@@ -12,7 +12,7 @@ namespace sandlane {
 // One thread: tests run beside each other.
 inline md::Simulation shipped(const std::string& name, const scene::Overrides& overrides = {}) {
     const scene::Scene s =
-        scene::read_scene(std::string(SANDLANE_SOURCE_DIR) + "/data/scenes/" + name, overrides);
+        scene::read_scene(std::string(SANDLANE_SOURCE_DIR "/data/scenes/") + name, overrides);
     const auto grains = scene::initial_grains(s);
     const md::Needs needs = md::analyse(s, grains);
     return {s, grains, needs,
