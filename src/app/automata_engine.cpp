@@ -179,7 +179,7 @@ public:
     [[nodiscard]] std::size_t size() const override { return drops_grains(scene_) ? 1 : model_->sites(); }
 
     [[nodiscard]] Hash128 state_hash() const override { return model_->state_hash(); }
-    [[nodiscard]] std::string serialise() const override { return model_->serialise(); }
+    void serialise(ByteWriter& out) const override { out.put_bytes(model_->serialise()); }
     void restore(const std::string& state, const std::string& origin) override {
         try {
             model_->restore(state);

@@ -38,7 +38,7 @@ public:
     [[nodiscard]] std::size_t size() const override { return simulation_.size(); }
 
     [[nodiscard]] Hash128 state_hash() const override { return simulation_.state_hash(); }
-    [[nodiscard]] std::string serialise() const override { return simulation_.serialise(); }
+    void serialise(ByteWriter& out) const override { out.put_bytes(simulation_.serialise()); }
     void restore(const std::string& state, const std::string& origin) override;
 
     [[nodiscard]] std::vector<Difference> compare_state(const Engine& other) const override;

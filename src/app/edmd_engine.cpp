@@ -77,11 +77,9 @@ public:
     [[nodiscard]] std::size_t size() const override { return run_->size(); }
 
     [[nodiscard]] Hash128 state_hash() const override { return run_->state_hash(); }
-    [[nodiscard]] std::string serialise() const override {
-        ByteWriter out;
+    void serialise(ByteWriter& out) const override {
         out.put_array(&mark_, 1);
         out.put_text(run_->serialise());
-        return std::move(out).bytes();
     }
     void restore(const std::string& state, const std::string& origin) override {
         try {

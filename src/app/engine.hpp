@@ -90,7 +90,7 @@ public:
 
     // ---- state: equal hashes mean equal bits, whatever the threads and the instruction set
     [[nodiscard]] virtual Hash128 state_hash() const = 0;
-    [[nodiscard]] virtual std::string serialise() const = 0;
+    virtual void serialise(ByteWriter& out) const = 0;
     // Of an engine made from the same scene. Throws Error(io) that names `origin` if the state does not
     // belong to it.
     virtual void restore(const std::string& state, const std::string& origin) = 0;

@@ -10,6 +10,7 @@
 #include "scene/schema.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace sandlane::app {
 
@@ -20,14 +21,14 @@ const Words& MdEngine::words() const {
 
 namespace {
 
-// Files of grains may have changed since; positions may not tell, radii and masses do.
-bool same_grains(const md::State& state, const std::vector<scene::GrainState>& grains) {
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        const auto id = static_cast<std::size_t>(state.id[i]);
-        if (id >= grains.size() || grains[id].radius != state.radius(i) || grains[id].mass != state.mass[i])
-            return false;
+// Of what the start of a grain tells of its later states. Files of grains may change between two runs.
+Hash128 hash_of(const std::vector<scene::GrainState>& grains) {
+    Hasher hasher;
+    for (const scene::GrainState& g : grains) {
+        const double values[] = {g.radius, g.mass, static_cast<double>(g.material)};
+        hasher.add({reinterpret_cast<const char*>(values), sizeof values});
     }
-    return true;
+    return hasher.result();
 }
 
 const md::Simulation& simulation_of(const Engine& engine) {
@@ -36,17 +37,24 @@ const md::Simulation& simulation_of(const Engine& engine) {
 
 } // namespace
 
+void MdEngine::serialise(ByteWriter& out) const {
+    out.put(grains_.high);
+    out.put(grains_.low);
+    simulation_.serialise(out);
+}
+
 void MdEngine::restore(const std::string& state, const std::string& origin) {
     try {
-        simulation_.restore(state);
+        ByteReader in(state);
+        const auto high = in.get<std::uint64_t>(), low = in.get<std::uint64_t>();
+        if (Hash128{high, low} != grains_)
+            fail(Exit::io,
+                 "its grains are not those that its scene describes now; a file of grains has changed");
+        simulation_.restore(std::string_view(state).substr(2 * sizeof(std::uint64_t)));
     } catch (const Error& e) {
         fail(e.code(), "{}: {}. Overrides by --set must keep grains, domain, walls, laws and time step.",
              origin, e.what());
     }
-    if (!same_grains(simulation_.state(), *grains_))
-        fail(Exit::io,
-             "{}: its grains are not those that its scene describes now; a file of grains has changed",
-             origin);
 }
 
 std::vector<Difference> MdEngine::compare_state(const Engine& other) const {
@@ -124,9 +132,8 @@ namespace {
 class MdSetup final : public Setup {
 public:
     MdSetup(scene::Scene scene, const Machine& machine)
-        : scene_(std::move(scene)),
-          grains_(std::make_shared<const std::vector<scene::GrainState>>(scene::initial_grains(scene_))),
-          needs_(md::analyse(scene_, *grains_)), derived_(md::derive(scene_, needs_)),
+        : scene_(std::move(scene)), grains_(scene::initial_grains(scene_)),
+          needs_(md::analyse(scene_, grains_)), derived_(md::derive(scene_, needs_)),
           plan_(md::make_plan(scene_, needs_, derived_, machine.isa, machine.threads)) {}
 
     [[nodiscard]] double memory_bytes() const override { return md::memory_bytes(needs_, plan_); }
@@ -146,12 +153,16 @@ public:
     [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) const override {
         md::Plan plan = plan_;
         plan.isa = isa;
-        return std::make_unique<MdEngine>(md::Simulation(scene_, *grains_, needs_, plan), grains_);
+        // They may be many: the first start takes them, another one makes the same again.
+        std::vector<scene::GrainState> grains = std::exchange(grains_, {});
+        if (grains.empty()) grains = scene::initial_grains(scene_);
+        const Hash128 hash = hash_of(grains);
+        return std::make_unique<MdEngine>(md::Simulation(scene_, std::move(grains), needs_, plan), hash);
     }
 
 private:
     scene::Scene scene_;
-    MdEngine::Grains grains_;
+    mutable std::vector<scene::GrainState> grains_;
     md::Needs needs_;
     md::Derived derived_;
     md::Plan plan_;

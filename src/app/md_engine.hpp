@@ -14,10 +14,9 @@ namespace sandlane::app {
 
 class MdEngine final : public Engine {
 public:
-    using Grains = std::shared_ptr<const std::vector<scene::GrainState>>;
-    // grains: those that the scene describes.
-    MdEngine(md::Simulation simulation, Grains grains)
-        : simulation_(std::move(simulation)), grains_(std::move(grains)) {}
+    // grains: hash of those that the scene describes.
+    MdEngine(md::Simulation simulation, Hash128 grains)
+        : simulation_(std::move(simulation)), grains_(grains) {}
 
     [[nodiscard]] const md::Simulation& simulation() const { return simulation_; }
 
@@ -37,7 +36,7 @@ public:
     [[nodiscard]] std::size_t size() const override { return simulation_.state().size(); }
 
     [[nodiscard]] Hash128 state_hash() const override { return simulation_.state_hash(); }
-    [[nodiscard]] std::string serialise() const override { return simulation_.serialise(); }
+    void serialise(ByteWriter& out) const override;
     void restore(const std::string& state, const std::string& origin) override;
 
     [[nodiscard]] std::vector<Difference> compare_state(const Engine& other) const override;
@@ -56,7 +55,7 @@ public:
 
 private:
     md::Simulation simulation_;
-    Grains grains_;
+    Hash128 grains_;
     std::vector<std::string> warnings_; // not told yet
     bool overlap_warned_ = false;
     std::size_t events_seen_ = 0;

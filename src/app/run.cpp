@@ -129,8 +129,9 @@ private:
     std::int64_t slice_ = 1; // steps between looks at the clock and at signals
 };
 
+// Without the setup, which holds the grains of the start.
 struct Start {
-    std::unique_ptr<Setup> setup;
+    std::string plan, plan_json;
     std::unique_ptr<Engine> engine;
     fs::path folder;
     std::unique_ptr<output::Checkpoint> resumed; // null: from the beginning
@@ -141,15 +142,23 @@ Start start_from_checkpoint(const Common& common, const RunOptions& options) {
     Restorable r = prepare_checkpoint(options.resume, common);
     const bool in_place = options.out.empty();
     std::unique_ptr<Engine> engine = r.engine();
-    return {std::move(r.setup), std::move(engine), in_place ? folder_of(options.resume) : options.out,
-            std::make_unique<output::Checkpoint>(std::move(r.checkpoint)), in_place};
+    r.checkpoint.engine_state = std::string();
+    return {r.setup->description(),
+            r.setup->json(),
+            std::move(engine),
+            in_place ? folder_of(options.resume) : options.out,
+            std::make_unique<output::Checkpoint>(std::move(r.checkpoint)),
+            in_place};
 }
 
 Start start_from_scene(const Common& common, const RunOptions& options) {
-    std::unique_ptr<Setup> setup = prepare(common);
-    std::unique_ptr<Engine> engine = setup->start();
-    return {std::move(setup), std::move(engine),
-            options.out.empty() ? "results" / common.scene.stem() : options.out, nullptr, false};
+    const std::unique_ptr<Setup> setup = prepare(common);
+    return {setup->description(),
+            setup->json(),
+            setup->start(),
+            options.out.empty() ? "results" / common.scene.stem() : options.out,
+            nullptr,
+            false};
 }
 
 void report(const Summary& summary, const Common& common, const fs::path& folder,
@@ -167,8 +176,7 @@ void report(const Summary& summary, const Common& common, const fs::path& folder
 int execute(Start& start, const Common& common, const RunOptions& options, const Stopwatch& wall) {
     Engine& engine = *start.engine;
     const double wall_before = start.resumed ? start.resumed->wall_seconds : 0;
-    RunOutputs outputs(start.folder, engine, start.setup->description(),
-                       start.in_place ? start.resumed.get() : nullptr);
+    RunOutputs outputs(start.folder, engine, start.plan, start.in_place ? start.resumed.get() : nullptr);
     outputs.be_quiet(common.quiet);
     outputs.spent_before(wall_before);
     try {
@@ -196,7 +204,7 @@ int run(const Common& common, const RunOptions& options) {
     Start start =
         options.resume.empty() ? start_from_scene(common, options) : start_from_checkpoint(common, options);
     if (options.dry_run) {
-        print_plan(*start.setup, common.json);
+        fmt::print("{}{}", common.json ? start.plan_json : start.plan, common.json ? "\n" : "");
         return 0;
     }
     catch_signals();

@@ -79,15 +79,14 @@ void RunOutputs::write_due(bool all) {
 
 // Keeps the two newest: one of them is whole whatever happens while the other is written.
 std::string RunOutputs::write_checkpoint() {
-    output::Checkpoint c;
+    output::Progress c;
     c.scene = scene::write_scene(engine_.scene());
-    c.engine_state = engine_.serialise();
     c.step = engine_.step();
     c.wall_seconds = wall_before_ + clock_.seconds();
     c.bookmarks["log"] = log_->bookmark();
     recorder_->add_bookmarks(c.bookmarks);
     const fs::path path = folder_.checkpoints() / checkpoint_name(engine_.step());
-    output::write_checkpoint(path, c);
+    output::write_checkpoint(path, c, [&](ByteWriter& out) { engine_.serialise(out); });
     if (checkpoints_.empty() || checkpoints_.back() != path) checkpoints_.push_back(path);
     while (checkpoints_.size() > 2) {
         std::error_code ignored;

@@ -2,7 +2,6 @@
 
 #include "core/error.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -24,21 +23,6 @@ namespace {
          std::strerror(cause));
 }
 
-bool write_pieces(std::FILE* handle, std::initializer_list<std::string_view> pieces) {
-    return std::all_of(pieces.begin(), pieces.end(), [&](std::string_view piece) {
-        return piece.empty() || std::fwrite(piece.data(), 1, piece.size(), handle) == piece.size();
-    });
-}
-
-// A device or a pipe: there is nothing to replace.
-void write_directly(const fs::path& path, std::initializer_list<std::string_view> pieces) {
-    std::FILE* handle = std::fopen(path.c_str(), "wb");
-    if (handle == nullptr) fail_io("open", path, errno);
-    const bool written = write_pieces(handle, pieces);
-    const int cause = errno;
-    if (std::fclose(handle) != 0 || !written) fail_io("write", path, written ? errno : cause);
-}
-
 } // namespace
 
 std::string read_file(const fs::path& path) {
@@ -55,29 +39,50 @@ std::string read_file(const fs::path& path) {
     return std::move(content).str();
 }
 
-void write_file_atomically(const fs::path& path, std::string_view content) {
-    write_file_atomically(path, {content});
+AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
+    std::error_code ignored, dangling;
+    target_ = fs::is_symlink(path_, ignored) ? fs::canonical(path_, dangling) : path_;
+    // A device or a pipe: there is nothing to replace.
+    const bool direct = dangling || fs::is_other(target_, ignored);
+    if (direct) target_ = path_;
+    written_ = direct ? target_ : fs::path(target_.string() + ".tmp");
+    handle_ = std::fopen(written_.c_str(), "wb");
+    if (handle_ == nullptr) give_up("create the file", errno);
 }
 
-void write_file_atomically(const fs::path& path, std::initializer_list<std::string_view> pieces) {
-    std::error_code ignored, dangling;
-    const bool link = fs::is_symlink(path, ignored);
-    const fs::path target = link ? fs::canonical(path, dangling) : path;
-    if (dangling || fs::is_other(target, ignored)) return write_directly(path, pieces);
-    const fs::path temporary = target.string() + ".tmp";
-    const auto give_up = [&](const char* action, int cause) {
-        fs::remove(temporary, ignored);
-        fail_io(action, path, cause);
-    };
-    std::FILE* handle = std::fopen(temporary.c_str(), "wb");
-    if (handle == nullptr) give_up("create the file", errno);
-    bool written = write_pieces(handle, pieces);
-    written = written && std::fflush(handle) == 0;
-    written = written && ::fsync(::fileno(handle)) == 0;
-    const int cause = errno;
-    written = std::fclose(handle) == 0 && written;
-    if (!written) give_up("write", cause);
-    if (std::rename(temporary.c_str(), target.c_str()) != 0) give_up("rename the finished file", errno);
+AtomicFile::~AtomicFile() {
+    discard();
+}
+
+void AtomicFile::write(std::string_view piece) {
+    if (!piece.empty() && std::fwrite(piece.data(), 1, piece.size(), handle_) != piece.size())
+        give_up("write", errno);
+}
+
+void AtomicFile::finish() {
+    const bool direct = written_ == target_;
+    if (std::fflush(handle_) != 0 || (!direct && ::fsync(::fileno(handle_)) != 0)) give_up("write", errno);
+    if (std::fclose(std::exchange(handle_, nullptr)) != 0) give_up("write", errno);
+    if (!direct && std::rename(written_.c_str(), target_.c_str()) != 0)
+        give_up("rename the finished file", errno);
+    finished_ = true;
+}
+
+void AtomicFile::give_up(const char* action, int cause) {
+    discard();
+    fail_io(action, path_, cause);
+}
+
+void AtomicFile::discard() noexcept {
+    if (handle_ != nullptr) std::fclose(std::exchange(handle_, nullptr));
+    std::error_code ignored;
+    if (!finished_ && written_ != target_) fs::remove(written_, ignored);
+}
+
+void write_file_atomically(const fs::path& path, std::string_view content) {
+    AtomicFile file(path);
+    file.write(content);
+    file.finish();
 }
 
 OutputFile::OutputFile(fs::path path, std::int64_t append_at) : path_(std::move(path)) {

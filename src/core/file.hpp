@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -13,12 +12,29 @@ namespace sandlane {
 // Throws Error(invalid_input) naming the path if it is missing, a folder or unreadable.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
-// Writes to a temporary file beside `path`, flushes it to the disk and renames it: a reader sees the old or
-// the new content, never half of it. A link keeps pointing where it does; a device or a pipe is written as it
-// is. Throws Error(io); the temporary file is removed.
+// A file that others see only when it is finished: a temporary file beside `path`, flushed to the disk and
+// renamed, so that a reader finds the old or the new content, never half of it. A link keeps pointing where
+// it does; a device or a pipe is written as it is. Throws Error(io); what was not finished is removed.
+class AtomicFile {
+public:
+    explicit AtomicFile(std::filesystem::path path);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    void write(std::string_view piece);
+    void finish();
+
+private:
+    [[noreturn]] void give_up(const char* action, int cause);
+    void discard() noexcept;
+
+    std::filesystem::path path_, target_, written_; // as named, behind links, and where the bytes go
+    std::FILE* handle_ = nullptr;
+    bool finished_ = false;
+};
+
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
-// Of pieces that need not be put together in memory.
-void write_file_atomically(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces);
 
 // A file that grows during a run (log, trajectory). Every error is an Error(io) naming the path.
 class OutputFile {

@@ -16,11 +16,22 @@ Hash128 hash_bytes(const void* data, std::size_t size) {
     return {h.high64, h.low64};
 }
 
-Hash128 hash_pieces(std::initializer_list<std::string_view> pieces) {
-    XXH3_state_t state;
-    XXH3_128bits_reset(&state);
-    for (const std::string_view piece : pieces) XXH3_128bits_update(&state, piece.data(), piece.size());
-    const XXH128_hash_t h = XXH3_128bits_digest(&state);
+struct Hasher::State {
+    XXH3_state_t stream;
+};
+
+Hasher::Hasher() : state_(std::make_unique<State>()) {
+    XXH3_128bits_reset(&state_->stream);
+}
+
+Hasher::~Hasher() = default;
+
+void Hasher::add(std::string_view piece) {
+    XXH3_128bits_update(&state_->stream, piece.data(), piece.size());
+}
+
+Hash128 Hasher::result() const {
+    const XXH128_hash_t h = XXH3_128bits_digest(&state_->stream);
     return {h.high64, h.low64};
 }
 

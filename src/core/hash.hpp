@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -17,7 +16,20 @@ struct Hash128 {
 };
 
 [[nodiscard]] Hash128 hash_bytes(const void* data, std::size_t size);
-// Of the pieces one after the other.
-[[nodiscard]] Hash128 hash_pieces(std::initializer_list<std::string_view> pieces);
+
+// Of pieces one after the other: the hash of the whole.
+class Hasher {
+public:
+    Hasher();
+    ~Hasher();
+    Hasher(const Hasher&) = delete;
+    Hasher& operator=(const Hasher&) = delete;
+    void add(std::string_view piece);
+    [[nodiscard]] Hash128 result() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 } // namespace sandlane

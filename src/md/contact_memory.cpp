@@ -46,23 +46,33 @@ const double* ContactMemory::find_wall(std::int64_t grain, std::int64_t element)
     return nullptr;
 }
 
+void ContactMemory::reserve(std::size_t contacts) {
+    keys_.reserve(contacts);
+    values_.reserve(contacts * fields_);
+}
+
 void ContactMemory::write(ByteWriter& bytes) const {
-    std::vector<std::int64_t> ids;
-    for (const Key& key : keys_) ids.insert(ids.end(), {key.first, key.second});
-    bytes.put_array(ids.data(), ids.size());
-    bytes.put_array(values_.data(), values_.size());
+    write_size(bytes, keys_.size());
+    write_contacts(bytes);
+}
+
+void ContactMemory::write_contacts(ByteWriter& bytes) const {
+    const double* values = values_.data();
+    for (const Key& key : keys_) {
+        bytes.put(key.first);
+        bytes.put(key.second);
+        for (std::size_t f = 0; f < fields_; ++f) bytes.put(*values++);
+    }
 }
 
 ContactMemory ContactMemory::read(ByteReader& bytes, const ContactMemory& kind, std::int64_t grains) {
     ContactMemory memory = kind.empty_copy();
-    std::vector<std::int64_t> ids;
-    bytes.get_array(ids);
-    bytes.get_array(memory.values_);
-    if (ids.size() % 2 != 0 || memory.values_.size() != ids.size() / 2 * memory.fields_)
-        fail(Exit::io, "memory of contacts of unequal length");
-    for (std::size_t n = 0; n < ids.size(); n += 2) {
-        if (ids[n] < 0 || ids[n] >= grains) fail(Exit::io, "a contact of grain {} that cannot be", ids[n]);
-        memory.keys_.push_back({ids[n], ids[n + 1]});
+    std::vector<double> values(kind.fields_);
+    for (auto left = bytes.get<std::uint64_t>(); left > 0; --left) {
+        const auto first = bytes.get<std::int64_t>(), second = bytes.get<std::int64_t>();
+        if (first < 0 || first >= grains) fail(Exit::io, "a contact of grain {} that cannot be", first);
+        for (double& value : values) value = bytes.get<double>();
+        memory.add_wall(first, second, values.data(), 1);
     }
     memory.index();
     return memory;

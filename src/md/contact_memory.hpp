@@ -22,6 +22,7 @@ public:
         return ContactMemory(static_cast<int>(fields_), static_cast<int>(odd_));
     }
 
+    void reserve(std::size_t contacts);
     // first, second: ids of two grains, whose numbers are those seen from the first; or the id of a grain and
     // a wall element by `add_wall`. values: `fields` numbers, for walls `stride` apart.
     void add(std::int64_t first, std::int64_t second, const double* values);
@@ -35,6 +36,11 @@ public:
     [[nodiscard]] bool empty() const { return keys_.empty(); }
 
     void write(ByteWriter& bytes) const;
+    // Content that is written in parts: how many contacts they have together, then each of them.
+    static void write_size(ByteWriter& bytes, std::size_t contacts) {
+        bytes.put(static_cast<std::uint64_t>(contacts));
+    }
+    void write_contacts(ByteWriter& bytes) const;
     // Throws Error(io) for lengths that do not fit and for a grain that is not one of 0 .. grains - 1.
     static ContactMemory read(ByteReader& bytes, const ContactMemory& kind, std::int64_t grains);
 

@@ -57,6 +57,12 @@ void LinkCells::fit(Grid& grid, double edge, double most) const {
     } while (static_cast<double>(grid.cells()) > most);
 }
 
+void LinkCells::release() {
+    for (Column<double>& column : position_) column = {};
+    radius_ = {};
+    owner_ = cell_ = slot_ = {};
+}
+
 std::size_t LinkCells::bytes() const {
     std::size_t total = radius_.bytes() + owner_.bytes() + start_.bytes() + cell_.bytes() + slot_.bytes();
     for (const Column<double>& column : position_) total += column.bytes();

@@ -21,6 +21,7 @@ public:
               double skin = 0);
 
     void build(const State& state, simd::BinKernel kernel, int threads);
+    void release(); // the memory of what was built
     // Cell and position in the order of the cells of a grain.
     [[nodiscard]] std::int32_t cell_of(std::size_t grain) const { return cell_[grain]; }
     [[nodiscard]] std::int32_t slot_of(std::size_t grain) const { return slot_[grain]; }

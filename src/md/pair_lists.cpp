@@ -31,6 +31,11 @@ PairLists::PairLists(const scene::Scene& scene, const Plan& plan, const Needs& n
 }
 
 void PairLists::Memory::clear(std::size_t pairs, std::size_t row) {
+    // With little to spare: doubled capacities would be a good part of a run's memory.
+    if (rows.capacity() < pairs * row) {
+        rows = std::vector<double>();
+        rows.reserve(pairs * row * 17 / 16);
+    }
     rows.resize(pairs * row);
     touched.assign(pairs / 8 + 1, 0);
 }
@@ -41,7 +46,10 @@ void PairLists::Memory::set(std::size_t pair, const double* values, std::size_t 
 }
 
 void PairLists::invalidate(const State& state) {
-    if (!stale_ && fields_ > 0) remembered_ = memory(state);
+    if (!stale_ && fields_ > 0) {
+        remembered_ = memory(state);
+        for (Tile& t : tiles_) t.memory = {};
+    }
     stale_ = true;
 }
 
@@ -53,13 +61,35 @@ void PairLists::adopt(ContactMemory memory) {
 ContactMemory PairLists::memory(const State& state) const {
     if (stale_) return remembered_;
     ContactMemory result = remembered_.empty_copy();
-    for (const Tile& t : tiles_)
-        for (std::size_t n = 0; n < static_cast<std::size_t>(t.near_count) && fields_ > 0; ++n)
-            if (t.memory.touches(n))
-                result.add(state.id[static_cast<std::size_t>(t.near_i[n])],
-                           state.id[static_cast<std::size_t>(t.near_j[n])], t.memory.rows.data() + n * row());
+    result.reserve(touching());
+    for (const Tile& t : tiles_) add_memory(t, state, result);
     result.index();
     return result;
+}
+
+void PairLists::write_memory(const State& state, ByteWriter& bytes) const {
+    if (stale_) return remembered_.write(bytes);
+    ContactMemory::write_size(bytes, touching());
+    for (const Tile& t : tiles_) {
+        ContactMemory part = remembered_.empty_copy();
+        add_memory(t, state, part);
+        part.write_contacts(bytes);
+    }
+}
+
+std::size_t PairLists::touching() const {
+    std::size_t count = 0;
+    for (const Tile& t : tiles_)
+        for (std::size_t n = 0; n < static_cast<std::size_t>(t.near_count) && fields_ > 0; ++n)
+            count += t.memory.touches(n) ? 1U : 0U;
+    return count;
+}
+
+void PairLists::add_memory(const Tile& t, const State& state, ContactMemory& to) const {
+    for (std::size_t n = 0; n < static_cast<std::size_t>(t.near_count) && fields_ > 0; ++n)
+        if (t.memory.touches(n))
+            to.add(state.id[static_cast<std::size_t>(t.near_i[n])],
+                   state.id[static_cast<std::size_t>(t.near_j[n])], t.memory.rows.data() + n * row());
 }
 
 std::size_t PairLists::bytes() const {
@@ -93,6 +123,7 @@ void PairLists::update(const State& state, const simd::PairView& pairs, const si
         build(state, pairs, kernels, threads);
     }
     refresh(state, pairs, kernels, threads, rebuild);
+    if (rebuild) remembered_ = remembered_.empty_copy(); // the lists know it now
 }
 
 // Largest square of a displacement since the last build among the grains of a tile.
@@ -156,6 +187,7 @@ void PairLists::build(const State& state, const simd::PairView& pairs, const sim
     cells_.build(state, kernels.bin, threads);
     for_tiles_dynamic(tiles_.size(), threads,
                       [&](std::size_t index) { build_tile(index, state, pairs, kernels); });
+    cells_.release();
 }
 
 void PairLists::build_tile(std::size_t index, const State& state, const simd::PairView& pairs,

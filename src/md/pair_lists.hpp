@@ -26,6 +26,7 @@ public:
     // What the contacts of laws that remember hold now, and the way back before the next update.
     [[nodiscard]] ContactMemory memory(const State& state) const;
     void adopt(ContactMemory memory);
+    void write_memory(const State& state, ByteWriter& bytes) const; // memory(), a tile at a time
     // Before forces at the positions of the records, of time `time` [s]: lists hold every pair that touches,
     // afterwards.
     void update(const State& state, const simd::PairView& pairs, const simd::DimensionKernels& kernels,
@@ -69,6 +70,8 @@ private:
     void refresh_tile(std::size_t index, const State& state, const simd::PairView& pairs,
                       const simd::DimensionKernels& kernels, bool rebuilt);
     void recall_memory(Tile& tile, const State& state) const;
+    [[nodiscard]] std::size_t touching() const; // pairs whose contacts remember something
+    void add_memory(const Tile& tile, const State& state, ContactMemory& to) const;
     [[nodiscard]] std::size_t row() const { return static_cast<std::size_t>(simd::memory_row(fields_)); }
 
     LinkCells cells_;

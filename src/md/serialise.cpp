@@ -42,9 +42,7 @@ bool suits(const State& state, std::size_t i, const scene::Scene& scene, const P
 
 } // namespace
 
-std::string Simulation::serialise() const {
-    ByteWriter w;
-    w.reserve(state_.bytes() + lists_.bytes());
+void Simulation::serialise(ByteWriter& w) const {
     w.put(step_);
     w.put(plan_.tick);
     w.put(plan_.stride);
@@ -68,13 +66,18 @@ std::string Simulation::serialise() const {
     w.put(static_cast<std::uint64_t>(events_.size()));
     for (const std::string& event : events_) w.put_text(event);
     if (plan_.memory > 0) {
-        lists_.memory(state_).write(w);
+        lists_.write_memory(state_, w);
         walls_.memory(state_).write(w);
     }
-    return std::move(w).bytes();
 }
 
-void Simulation::restore(const std::string& bytes) {
+std::string Simulation::serialise() const {
+    ByteWriter bytes;
+    serialise(bytes);
+    return std::move(bytes).bytes();
+}
+
+void Simulation::restore(std::string_view bytes) {
     const auto damaged = [] { fail(Exit::io, "its state does not belong to its scene"); };
     ByteReader r(bytes);
     step_ = r.get<std::int64_t>();

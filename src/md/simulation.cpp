@@ -22,13 +22,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 } // namespace
 
-Simulation::Simulation(scene::Scene scene, const std::vector<scene::GrainState>& grains, const Needs& needs,
+Simulation::Simulation(scene::Scene scene, std::vector<scene::GrainState> grains, const Needs& needs,
                        Plan plan)
     : scene_(std::move(scene)), needs_(needs), plan_(std::move(plan)), kernels_(&simd::md_kernels(plan_.isa)),
       coefficients_(pair_table(scene_)), walls_(scene_, plan_, needs_) {
     state_.prepare(plan_, scene_.domain);
     prepare_method();
-    start(grains);
+    start(std::move(grains));
 }
 
 // What the method of pair finding needs, for an unsorted state.
@@ -56,20 +56,23 @@ scene::GrainState Simulation::with_shear_flow(scene::GrainState grain) const {
 }
 
 // Accelerations before the first step: without them every velocity would keep an error of a dt/2.
-void Simulation::start(const std::vector<scene::GrainState>& grains) {
+void Simulation::start(std::vector<scene::GrainState> grains) {
     for (const scene::GrainState& g : grains)
         if (g.insert_at > -infinity)
             waiting_.push_back(g);
         else
             state_.append(with_shear_flow(g), plan_.dt);
+    grains = std::vector<scene::GrainState>(); // they may be many: free now
     std::stable_sort(waiting_.begin(), waiting_.end(),
                      [](const auto& a, const auto& b) { return a.insert_at < b.insert_at; });
     sort_by_place();
     bin();
-    const std::vector<double> forces = take_forces();
-    const simd::MotionView view = motion_view(force_step_);
-    for (std::size_t i = 0; i < state_.size(); ++i)
-        state_.set_accelerations(i, forces.data() + i * state_.force_stride(), view);
+    {
+        const std::vector<double> forces = take_forces();
+        const simd::MotionView view = motion_view(force_step_);
+        for (std::size_t i = 0; i < state_.size(); ++i)
+            state_.set_accelerations(i, forces.data() + i * state_.force_stride(), view);
+    }
     wall_work_ = shear_work_ = 0;
     initial_energy_ = observe().energy();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/snapshot.hpp"
+#include "core/bytes.hpp"
 #include "core/hash.hpp"
 #include "md/lattice.hpp"
 #include "md/link_cells.hpp"
@@ -17,6 +18,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sandlane::md {
@@ -26,8 +28,7 @@ inline constexpr std::int64_t sort_interval = 256;
 
 class Simulation {
 public:
-    Simulation(scene::Scene scene, const std::vector<scene::GrainState>& grains, const Needs& needs,
-               Plan plan);
+    Simulation(scene::Scene scene, std::vector<scene::GrainState> grains, const Needs& needs, Plan plan);
 
     // Runs n time steps; afterwards the state stands at time() = step() tick. Where the time step adapts, n
     // counts ticks, and the run ends with the first whole step at or after them.
@@ -77,12 +78,13 @@ public:
     [[nodiscard]] const std::vector<std::string>& events() const { return events_; }
 
     // Complete state for checkpoints; restore() needs a Simulation made from the same scene.
-    [[nodiscard]] std::string serialise() const;
-    void restore(const std::string& bytes);
+    void serialise(ByteWriter& out) const;
+    [[nodiscard]] std::string serialise() const; // the same, whole
+    void restore(std::string_view bytes);
 
 private:
     void prepare_method();
-    void start(const std::vector<scene::GrainState>& grains);
+    void start(std::vector<scene::GrainState> grains);
     void sort_by_place();
     void insert_due();
     void use_link_cells();

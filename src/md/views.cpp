@@ -112,7 +112,12 @@ analysis::Contacts Simulation::contacts() const {
 }
 
 Hash128 Simulation::state_hash() const {
+    Hasher hasher;
     std::vector<double> values;
+    const auto add = [&] {
+        hasher.add({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
+        values.clear();
+    };
     for (const std::size_t i : by_id(state_)) {
         values.push_back(static_cast<double>(state_.id[i]));
         const double* record = state_.record_of(i);
@@ -127,9 +132,11 @@ Hash128 Simulation::state_hash() const {
             values.insert(values.end(), {q.w, q.x, q.y, q.z});
         }
         for (std::size_t d = 0; d < 3; ++d) values.push_back(state_.images(i, d));
+        add();
     }
     values.push_back(static_cast<double>(step_));
-    return hash_bytes(values.data(), values.size() * sizeof(double));
+    add();
+    return hasher.result();
 }
 
 } // namespace sandlane::md

@@ -39,7 +39,7 @@ public:
           gravity_(scene.domain.gravity), dt_(scene.md.dt), body_(scene.md.body) {}
 
 protected:
-    void format(const Snapshot& snapshot, std::string& text) const override;
+    void format(const Snapshot& snapshot, std::string& text) override;
 
 private:
     [[nodiscard]] scene::Material material(int index) const;
@@ -74,7 +74,7 @@ Record BookWriter::wall_record(const WallShape& disc) const {
             m};
 }
 
-void BookWriter::format(const Snapshot& s, std::string& text) const {
+void BookWriter::format(const Snapshot& s, std::string& text) {
     std::size_t records = s.size();
     for (const WallShape& wall : s.walls) records += wall.kind == WallShape::Kind::disc ? 1 : 0;
     fmt::format_to(std::back_inserter(text),

@@ -12,14 +12,13 @@ namespace sandlane::output {
 namespace {
 
 constexpr std::string_view magic = "SANDLANE";
-constexpr std::uint32_t version = 4;
-constexpr std::size_t header_size = magic.size() + sizeof(std::uint32_t) + 3 * sizeof(std::uint64_t);
+constexpr std::size_t header_size = magic.size() + sizeof checkpoint_version;
+constexpr std::size_t trailer_size = 3 * sizeof(std::uint64_t);
 
 Checkpoint read_content(std::string_view content) {
     ByteReader reader(content);
     Checkpoint c;
     c.scene = reader.get_text();
-    c.engine_state = reader.get_text();
     c.step = reader.get<std::int64_t>();
     c.wall_seconds = reader.get<double>();
     const auto bookmarks = reader.get<std::uint64_t>();
@@ -27,7 +26,7 @@ Checkpoint read_content(std::string_view content) {
         const std::string key = reader.get_text();
         c.bookmarks[key] = reader.get_text();
     }
-    if (!reader.at_end()) fail(Exit::io, "bytes too many");
+    c.engine_state = reader.rest();
     return c;
 }
 
@@ -39,26 +38,36 @@ std::string bookmark_in(const Checkpoint* checkpoint, const std::string& name) {
     return found == checkpoint->bookmarks.end() ? std::string() : found->second;
 }
 
-void write_checkpoint(const std::filesystem::path& path, const Checkpoint& c) {
-    // The state is most of it, and in memory once.
-    ByteWriter before, after;
-    before.put_text(c.scene);
-    before.put(static_cast<std::uint64_t>(c.engine_state.size()));
-    after.put(c.step);
-    after.put(c.wall_seconds);
-    after.put(static_cast<std::uint64_t>(c.bookmarks.size()));
-    for (const auto& [name, value] : c.bookmarks) {
-        after.put_text(name);
-        after.put_text(value);
+void write_checkpoint(const std::filesystem::path& path, const Progress& p,
+                      const std::function<void(ByteWriter&)>& state) {
+    AtomicFile file(path);
+    Hasher hasher;
+    std::uint64_t size = 0;
+    ByteWriter content([&](std::string_view piece) {
+        file.write(piece);
+        hasher.add(piece);
+        size += piece.size();
+    });
+    ByteWriter header, trailer;
+    header.put_bytes(magic);
+    header.put(checkpoint_version);
+    file.write(header.bytes());
+    content.put_text(p.scene);
+    content.put(p.step);
+    content.put(p.wall_seconds);
+    content.put(static_cast<std::uint64_t>(p.bookmarks.size()));
+    for (const auto& [name, value] : p.bookmarks) {
+        content.put_text(name);
+        content.put_text(value);
     }
-    const Hash128 hash = hash_pieces({before.bytes(), c.engine_state, after.bytes()});
-    ByteWriter header;
-    header.put(version);
-    header.put(
-        static_cast<std::uint64_t>(before.bytes().size() + c.engine_state.size() + after.bytes().size()));
-    header.put(hash.high);
-    header.put(hash.low);
-    write_file_atomically(path, {magic, header.bytes(), before.bytes(), c.engine_state, after.bytes()});
+    state(content);
+    content.flush();
+    const Hash128 hash = hasher.result();
+    trailer.put(size);
+    trailer.put(hash.high);
+    trailer.put(hash.low);
+    file.write(trailer.bytes());
+    file.finish();
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
@@ -70,14 +79,16 @@ Checkpoint parse_checkpoint(const std::string& bytes, const std::string& name) {
         fail(Exit::io, "{}: not a usable checkpoint: {}. Take an older one from the same folder.", name,
              what);
     };
-    if (bytes.size() < header_size || std::string_view(bytes).substr(0, magic.size()) != magic)
-        damaged("it does not start like one");
-    ByteReader header(std::string_view(bytes).substr(magic.size(), header_size - magic.size()));
-    if (header.get<std::uint32_t>() != version) damaged("it was written by another version");
-    const auto size = header.get<std::uint64_t>();
-    const auto high = header.get<std::uint64_t>(), low = header.get<std::uint64_t>();
-    if (size != bytes.size() - header_size) damaged("it is truncated or has bytes too many");
-    const std::string_view content = std::string_view(bytes).substr(header_size);
+    const std::string_view all = bytes;
+    if (all.substr(0, magic.size()) != magic) damaged("it does not start like one");
+    if (all.size() < header_size + trailer_size) damaged("it is truncated or has bytes too many");
+    ByteReader header(all.substr(magic.size()));
+    if (header.get<std::uint32_t>() != checkpoint_version) damaged("it was written by another version");
+    const std::string_view content = all.substr(header_size, all.size() - header_size - trailer_size);
+    ByteReader trailer(all.substr(all.size() - trailer_size));
+    const auto size = trailer.get<std::uint64_t>();
+    const auto high = trailer.get<std::uint64_t>(), low = trailer.get<std::uint64_t>();
+    if (size != content.size()) damaged("it is truncated or has bytes too many");
     if (hash_bytes(content.data(), content.size()) != Hash128{high, low})
         damaged("its checksum does not match");
     Checkpoint checkpoint;

@@ -18,7 +18,7 @@ public:
         : SingleFileWriter(folder / "trajectory.dump", bookmark) {}
 
 protected:
-    void format(const Snapshot& snapshot, std::string& text) const override;
+    void format(const Snapshot& snapshot, std::string& text) override;
 };
 
 void append_header(const Snapshot& s, std::size_t atoms, bool images, std::string& text) {
@@ -66,7 +66,7 @@ void append_images(std::int64_t x, std::int64_t y, std::int64_t z, std::string& 
     append_line(text, x, y, z);
 }
 
-void DumpWriter::format(const Snapshot& s, std::string& text) const {
+void DumpWriter::format(const Snapshot& s, std::string& text) {
     const bool images = s.periodic_x || s.periodic_y || s.periodic_z;
     std::size_t discs = 0;
     for (const WallShape& wall : s.walls) discs += wall.kind == WallShape::Kind::disc ? 1 : 0;
@@ -74,6 +74,7 @@ void DumpWriter::format(const Snapshot& s, std::string& text) const {
     for (std::size_t i = 0; i < s.size(); ++i) {
         append_grain(s, i, text);
         if (images) append_images(s.image_x[i], s.image_y[i], s.dimension == 3 ? s.image_z[i] : 0, text);
+        pass_on(text);
     }
     std::int64_t id = first_wall_id;
     for (const WallShape& wall : s.walls) {

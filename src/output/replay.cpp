@@ -152,7 +152,7 @@ ReplayFrame make_replay_frame(const Snapshot& s) {
 ReplayWriter::ReplayWriter(const std::filesystem::path& folder, const std::string& bookmark)
     : SingleFileWriter(folder / "replay.bin", bookmark) {}
 
-void ReplayWriter::format(const Snapshot& snapshot, std::string& bytes) const {
+void ReplayWriter::format(const Snapshot& snapshot, std::string& bytes) {
     const ReplayFrame f = make_replay_frame(snapshot);
     ByteWriter frame;
     frame.put(f.time);

@@ -48,7 +48,7 @@ public:
     explicit ReplayWriter(const std::filesystem::path& folder, const std::string& bookmark = {});
 
 protected:
-    void format(const analysis::Snapshot& snapshot, std::string& bytes) const override;
+    void format(const analysis::Snapshot& snapshot, std::string& bytes) override;
 };
 [[nodiscard]] std::vector<ReplayFrame> read_replay(const std::filesystem::path& path);
 

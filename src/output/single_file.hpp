@@ -22,11 +22,13 @@ public:
 
 protected:
     SingleFileWriter(const std::filesystem::path& path, const std::string& bookmark);
-    virtual void format(const analysis::Snapshot& snapshot, std::string& text) const = 0;
+    virtual void format(const analysis::Snapshot& snapshot, std::string& text) = 0;
+    // Between two lines of a frame: writes what there is if it is much, so that no frame is whole in memory.
+    void pass_on(std::string& text);
 
 private:
     OutputFile file_;
-    std::string text_; // kept between frames, if it is small, so that its memory is reused
+    std::string text_; // kept between frames, so that its memory is reused
 };
 
 // -1 for an empty bookmark, else the length it holds. Throws Error(io) naming the path.

@@ -29,7 +29,7 @@ public:
     }
 
 protected:
-    void format(const Snapshot& snapshot, std::string& text) const override;
+    void format(const Snapshot& snapshot, std::string& text) override;
 
 private:
     void append_comment(const Snapshot& s, std::string& text) const;
@@ -75,13 +75,16 @@ void append_grain(const Snapshot& s, std::size_t i, std::string& text) {
     append_line(text, s.pressure[i]);
 }
 
-void XyzWriter::format(const Snapshot& s, std::string& text) const {
+void XyzWriter::format(const Snapshot& s, std::string& text) {
     const double none = 0;
     std::int64_t discs = 0;
     for (const WallShape& wall : s.walls) discs += wall.kind == WallShape::Kind::disc ? 1 : 0;
     append_line(text, static_cast<std::int64_t>(s.size()) + discs);
     append_comment(s, text);
-    for (std::size_t i = 0; i < s.size(); ++i) append_grain(s, i, text);
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        append_grain(s, i, text);
+        pass_on(text);
+    }
     std::int64_t id = first_wall_id;
     for (const WallShape& wall : s.walls) {
         if (wall.kind != WallShape::Kind::disc) continue;

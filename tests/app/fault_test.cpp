@@ -220,7 +220,7 @@ TEST_F(Checkpoints, OfAnotherSceneAfterOverrides) {
     };
     EXPECT_SAYS(resumed("md.dt=1e-6"), "its state does not belong to its scene");
     EXPECT_SAYS(resumed("md.integrator=gear6"), "Overrides by --set must keep");
-    EXPECT_SAYS(resumed("grains.0.radius=\"1 mm\""), "its state does not belong to its scene");
+    EXPECT_SAYS(resumed("grains.0.radius=\"1 mm\""), "its grains are not those that its scene describes now");
     EXPECT_SAYS(resumed("md.duratoin=1"), "did you mean \"duration\"?");
 }
 

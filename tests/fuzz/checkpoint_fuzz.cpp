@@ -1,4 +1,4 @@
-// Checkpoints. First byte 1: the rest is a file, read as it is and with its header made to fit. Else the rest
+// Checkpoints. First byte 1: the rest is a file, and then the content of one. Else the rest
 // is a list of patches (offset, eight bytes) of the state of a small run, behind the checksum: on the
 // lattice, or for 2 with lists and contacts that remember.
 #include "core/bytes.hpp"
@@ -13,8 +13,6 @@
 using namespace sandlane;
 
 namespace {
-
-constexpr std::size_t header_size = 36; // magic, version, length, checksum
 
 constexpr const char* scene_text = R"(
 [domain]
@@ -55,21 +53,20 @@ md::Simulation new_run(const scene::Overrides& overrides) {
     return {s, grains, needs, md::make_plan(s, needs, md::derive(s, needs), simd::Isa::scalar, {1, "fuzz"})};
 }
 
-void read_file_of(std::string bytes) {
+void read_file_of(const std::string& bytes) {
     try {
         (void)output::parse_checkpoint(bytes, "fuzz.checkpoint");
     } catch (const Error&) {
     }
-    if (bytes.size() < header_size) return;
-    const std::string_view content = std::string_view(bytes).substr(header_size);
-    const Hash128 hash = hash_bytes(content.data(), content.size());
-    ByteWriter header;
-    header.put(std::uint32_t{1});
-    header.put(static_cast<std::uint64_t>(content.size()));
-    header.put(hash.high);
-    header.put(hash.low);
-    bytes.replace(0, header_size, "SANDLANE" + header.bytes());
-    (void)output::parse_checkpoint(bytes, "fuzz.checkpoint");
+    const Hash128 hash = hash_bytes(bytes.data(), bytes.size());
+    ByteWriter file;
+    file.put_bytes("SANDLANE");
+    file.put(output::checkpoint_version);
+    file.put_bytes(bytes);
+    file.put(static_cast<std::uint64_t>(bytes.size()));
+    file.put(hash.high);
+    file.put(hash.low);
+    (void)output::parse_checkpoint(file.bytes(), "fuzz.checkpoint");
 }
 
 struct Run {
