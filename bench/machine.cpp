@@ -134,4 +134,19 @@ double load_latency(std::size_t working_set) {
     return at < next.size() ? seconds / jumps : 0;
 }
 
+double clock_rate() {
+    static const double rate = [] {
+        constexpr std::int64_t additions = 1000; // one after the other, a cycle each
+        std::uint64_t sum = 0;
+        const double seconds = fastest([&](std::int64_t repetitions) {
+            for (std::int64_t n = 0; n < additions * repetitions; ++n) {
+                sum += static_cast<std::uint64_t>(n) | 1;
+                asm volatile("" : "+r"(sum));
+            }
+        });
+        return additions / seconds;
+    }();
+    return rate;
+}
+
 } // namespace sandlane::bench

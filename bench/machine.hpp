@@ -22,4 +22,7 @@ struct Rates {
 // Seconds per dependent load that jumps about in a working set of this size.
 [[nodiscard]] double load_latency(std::size_t working_set);
 
+// Cycles per second of one core that is busy.
+[[nodiscard]] double clock_rate();
+
 } // namespace sandlane::bench

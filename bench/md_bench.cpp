@@ -99,6 +99,7 @@ void step(benchmark::State& state, const Case& c) {
     state.counters["bytes_per_step"] = cost.bytes;
     state.counters["operations_per_step"] =
         cost.arithmetic + cost.single_arithmetic + cost.divide + cost.square_root;
+    state.counters["cycles_per_step"] = bench::clock_rate() * c.threads / rate;
     state.counters["bound_bytes"] = bound.bytes;
     state.counters["bound_compute"] = bound.compute;
     state.counters["of_bound"] = rate / bound.least();

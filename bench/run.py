@@ -19,8 +19,8 @@ import tables
 skipped = 77  # exit code, known to ctest
 
 
-def case(method="half", law="linear+friction", phi=0.82, n=10000, isa="avx512", threads=1):
-    return f"md/{method}/{law}/phi={phi}/N={n}/{isa}/threads={threads}"
+def case(method="half", law="linear+friction", phi=0.82, n=10000, isa="avx512", threads=1, dimension=2):
+    return f"md{'3' if dimension == 3 else ''}/{method}/{law}/phi={phi}/N={n}/{isa}/threads={threads}"
 
 
 def show(found):

@@ -37,21 +37,42 @@ inline StepCost motion_cost(const md::Plan& plan) {
     return c;
 }
 
-// `evaluations` of the laws per grain (pairs.ipp, contact.hpp), each adding to `targets` grains.
-inline StepCost law_cost(const md::Simulation& simulation, double evaluations, double targets) {
-    const md::Plan& plan = simulation.plan();
-    const bool viscoelastic = simulation.scene().md.normal == scene::NormalLaw::viscoelastic;
+// One evaluation of the laws for a contact away from periodic sides (contact.hpp, tangential.hpp): in the
+// plane, and in space. Each adds to `targets` grains.
+inline StepCost plane_law(const md::Plan& plan, bool viscoelastic, double targets) {
     const double combine = 7 + 12;         // differences, sums; nearest image in x and y
     const double geometry = 3 + 1 + 4 + 2; // d^2, overlap, rate, touching
     const double normal = viscoelastic ? 5 : 4;
     const double tangential = plan.tangential != 0 ? 4 + 6 : 0; // v_t, clamp
     const double result = 5 + 4 + 1 + 1;                        // F_x, F_y, f_t, largest overlap
-    StepCost c;
-    c.bytes = 8 * simd::record_fields; // record, read
-    c.arithmetic = evaluations * (combine + geometry + normal + tangential + result + 3 * targets);
-    c.divide = evaluations * (viscoelastic ? 3 : 2);
-    c.square_root = evaluations * (viscoelastic ? 2 : 1);
-    return c;
+    return {0, combine + geometry + normal + tangential + result + 3 * targets, 0, 1,
+            viscoelastic ? 2.0 : 1.0};
+}
+
+inline StepCost space_law(const md::Plan& plan, bool viscoelastic, double targets) {
+    const bool friction = plan.tangential != 0, remembers = plan.memory > 0;
+    const double combine = 8 + (friction ? 6 : 0) + (remembers ? 3 : 0); // records, spins, twist
+    const double geometry = 5 + 3 + 1 + 3 + 1 + 6 + 2; // d^2, dv, 1/d, n, overlap, rate, touching
+    const double normal = viscoelastic ? 8 : 4;        // and R_eff
+    const double surface = friction ? 3 + 9 + 9 : 0;   // R omega, its cross product, u_t
+    const double sliding = 5 + 1 + 1 + 4;              // |u_t|^2, mu f, min, force
+    const double spring = 10 + 5 + 11 + 15 + 5 + 9 + 4 + 6 + 12 + 8 + 9; // twist, carried, trial, limit, held
+    const double tangential = !friction ? 0 : remembers ? spring : sliding;
+    const double result = 3 + 3 + 1 + (friction ? 3 + 9 + 3 : 0); // force, torque over R, largest overlap
+    return {0, combine + geometry + normal + surface + tangential + result + (friction ? 6 : 3) * targets, 0,
+            1.0 + (friction ? 1 : 0), 1.0 + (viscoelastic ? 1 : 0) + (friction && !remembers ? 1 : 0)};
+}
+
+// `evaluations` of the laws per grain (pairs.ipp).
+inline StepCost law_cost(const md::Simulation& simulation, double evaluations, double targets) {
+    const md::Plan& plan = simulation.plan();
+    const bool viscoelastic = simulation.scene().md.normal == scene::NormalLaw::viscoelastic;
+    const bool space = plan.dimension == 3;
+    const StepCost one =
+        space ? space_law(plan, viscoelastic, targets) : plane_law(plan, viscoelastic, targets);
+    const double spins = space && md::turns(plan) ? simd::spin_fields : 0;
+    return {8 * (simd::record_fields + spins), // records, read
+            evaluations * one.arithmetic, 0, evaluations * one.divide, evaluations * one.square_root};
 }
 
 // What lattice and cells need and lists do not: forces kept in memory (read and written by pairs and by
@@ -90,10 +111,11 @@ inline StepCost cells_cost(const md::Simulation& simulation, double contacts) {
     return c + law_cost(simulation, 2 * contacts, 1);
 }
 
-// Per listed pair (tiles.ipp), as if only contacts were listed, and lists cost nothing to make.
+// Per listed pair (tiles.ipp), as if only contacts were listed, and lists cost nothing to make. Rows of
+// memory are read and written.
 inline StepCost lists_cost(const md::Simulation& simulation, double contacts) {
     StepCost c;
-    c.bytes = contacts * 2 * 4;
+    c.bytes = contacts * (2 * 4 + 2 * 8 * simd::memory_row(simulation.plan().memory));
     return c + law_cost(simulation, contacts, 2);
 }
 

@@ -6,6 +6,10 @@ sizes = (1000, 10000, 100000, 1000000)
 methods = {"verlet": "Verlet lists", "half": "lattice, half mask", "lattice": "lattice, full mask",
            "cells": "link cells"}
 main = ("verlet", "half")
+# Whole steps by lists: name, law, packing fraction, grains, dimension.
+steps = (("discs, dense", "linear+friction", 0.82, 100000, 2), ("discs, dilute", "linear+friction", 0.2, 100000, 2),
+         ("spheres, dense, viscoelastic with springs", "hertz+springs", 0.64, 32768, 3),
+         ("spheres, dense, without friction", "linear", 0.64, 32768, 3))
 laws = {"linear+friction": "linear dashpot, friction", "hertz+friction": "viscoelastic, friction",
         "linear": "linear dashpot", "hertz": "viscoelastic"}
 
@@ -18,7 +22,13 @@ def cases(case, isas, cpus):
     names += [case(main[0], law=law, isa=isa) for law in laws for isa in ends]
     names += [case(method, n=n, isa=isas[-1], threads=t) for method in main for n in sizes
               for t in range(1, min(2, cpus) + 1)]
+    names += step_cases(case, isas)
     return list(dict.fromkeys(names))
+
+
+def step_cases(case, isas):
+    return [case(main[0], law=law, phi=phi, n=n, isa=isas[-1], dimension=dimension)
+            for _, law, phi, n, dimension in steps]
 
 
 def millions(records):
@@ -84,6 +94,18 @@ def size_table(found, case, isas, cpus):
     return text
 
 
+def step_table(found, case, isas):
+    text = head("state", "grains", "touching neighbours", "10^6 steps/s", "cycles per grain and step", "bytes, least",
+                "operations", "10^6 steps/s that memory allows", "that arithmetic allows", "share of the smaller")
+    for (name, _, _, n, _), key in zip(steps, step_cases(case, isas)):
+        r = found[key]
+        text += row(name, n, f"{measure.median(r, 'neighbours'):.2f}", millions(r),
+                    *(f"{measure.median(r, c):.0f}" for c in ("cycles_per_step", "bytes_per_step", "operations_per_step")),
+                    *(f"{measure.median(r, c) / 1e6:.0f}" for c in ("bound_bytes", "bound_compute")),
+                    f"{measure.median(r, 'of_bound'):.0%}")
+    return text
+
+
 def roof_table(roof, isas, cpus):
     text = head("operation, 10^9/s, one thread", *isas)
     names = {"double": "double + and *", "single": "single + and *", "multiply-add": "multiply-add",
@@ -138,5 +160,6 @@ def write(found, roof, case, isas, cpus):
     fill(performance, "kernels", kernel_table(found, case, isas))
     fill(performance, "isas", isa_table(found, case, isas))
     fill(performance, "laws", law_table(found, case, isas))
+    fill(performance, "steps", step_table(found, case, isas))
     fill(performance, "sizes", size_table(found, case, isas, cpus))
     fill(performance, "roofline", roof_table(roof, isas, cpus))
