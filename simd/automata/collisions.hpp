@@ -121,6 +121,27 @@ constexpr StateGroups saturated_groups() {
 }
 inline constexpr StateGroups fhp3_groups = saturated_groups();
 
+// New states by old ones, of both chiralities.
+struct StateTable {
+    alignas(64) std::uint8_t to[2][128];
+};
+
+constexpr StateTable fhp3_table() {
+    StateTable table{};
+    for (int s = 0; s < 128; ++s) table.to[0][s] = table.to[1][s] = static_cast<std::uint8_t>(s);
+    for (int k = 0; k < fhp3_groups.count; ++k) {
+        const StateGroup& g = fhp3_groups.group[static_cast<std::size_t>(k)];
+        for (int i = 0; i < g.size; ++i) {
+            const auto state = [&](int at) {
+                return static_cast<std::uint8_t>(g.state[static_cast<std::size_t>(at % g.size)]);
+            };
+            table.to[1][state(i)] = state(i + 1);
+            table.to[0][state(i)] = state(i + g.size - 1);
+        }
+    }
+    return table;
+}
+
 // The sites of a row in one state each: products of the eight combinations of three planes.
 template <class B> struct Minterms {
     B low[8], high[8], rest[2];

@@ -4,13 +4,15 @@
 // take one pass over the memory.
 #pragma once
 
+#include "simd/automata/bytes.hpp"
 #include "simd/automata/collisions.hpp"
 #include "simd/automata/tables.hpp"
 #include "simd/automata/words.hpp"
 
 namespace sandlane::simd {
 
-template <class Arch> struct GasRows {
+// by_bytes: FHP-III by a table of bytes, else by Boolean expressions of planes.
+template <class Arch, bool by_bytes = false> struct GasRows {
     using W = WordBatch<Arch>;
     static constexpr std::int32_t lanes = static_cast<std::int32_t>(W::size);
     static constexpr std::int32_t pad = segment_words;
@@ -76,6 +78,9 @@ template <class Arch> struct GasRows {
         return used == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << used) - 1;
     }
 
+    static SANDLANE_INLINE WordSource source_of(const GasView& v, std::int32_t row) {
+        return {{v.seed[0], v.seed[1]}, static_cast<std::uint32_t>(row), v.step};
+    }
     static SANDLANE_INLINE W draw(const WordSource& source, const W& index, std::uint32_t stream,
                                   std::uint32_t probability) {
         if (probability == 0) return W(std::uint64_t{0});
@@ -100,12 +105,30 @@ template <class Arch> struct GasRows {
         return model == GasModel::hpp ? 4 : model == GasModel::fhp1 ? 6 : 7;
     }
 
+    // Gravity, and what solid sites send back: before and after the collisions, n.
+    template <GasModel model>
+    static SANDLANE_INLINE void turn_and_return(const GasView& v, const WordSource& source, const W& index,
+                                                std::ptrdiff_t at, const W* before, W* n) {
+        constexpr int planes = planes_of(model), half = model == GasModel::hpp ? 2 : 3;
+        if constexpr (model != GasModel::hpp)
+            turn_towards_x<planes == 7>(n, draw(source, index, gas_stream::gravity, v.gravity));
+        if (v.solid == nullptr) return;
+        const W solid = load_words<Arch>(v.solid + at);
+        for (int i = 0; i < planes; ++i) {
+            const int from = i == 6 ? 6 : (i + half) % (2 * half);
+            n[i] = (solid & before[from]) | (~solid & n[i]);
+        }
+    }
+
     template <GasModel model, GasVariant variant>
     static void collide_row(const GasView& v, std::int32_t row, WordRange range, const Buffer& buffer) {
+        if constexpr (by_bytes) {
+            collide_bytes<variant>(v, row, range, buffer);
+            return;
+        }
         constexpr int planes = planes_of(model);
         constexpr bool general = variant == GasVariant::general || model == GasModel::pipe;
-        constexpr int half = model == GasModel::hpp ? 2 : 3;
-        const WordSource source{{v.seed[0], v.seed[1]}, static_cast<std::uint32_t>(row), v.step};
+        const WordSource source = source_of(v, row);
         const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(row) * v.stride;
         const W alternating(((static_cast<std::uint32_t>(row) + v.step) & 1) != 0 ? 0x5555555555555555ULL
                                                                                   : 0xaaaaaaaaaaaaaaaaULL);
@@ -124,25 +147,37 @@ template <class Arch> struct GasRows {
             if constexpr (general)
                 for (int i = 0; i < planes; ++i) before[i] = n[i];
             collide<model>(v, source, index, xi, n);
-            if constexpr (general && model != GasModel::hpp) {
-                const W gravity = draw(source, index, gas_stream::gravity, v.gravity);
-                turn_towards_x<planes == 7>(n, gravity);
-            }
-            if constexpr (general)
-                if (v.solid != nullptr) {
-                    const W solid = load_words<Arch>(v.solid + start + w);
-                    for (int i = 0; i < planes; ++i) {
-                        const int from = i == 6 ? 6 : (i + half) % (2 * half);
-                        n[i] = (solid & before[from]) | (~solid & n[i]);
-                    }
-                }
+            if constexpr (general) turn_and_return<model>(v, source, index, start + w, before, n);
             for (int i = 0; i < planes; ++i) n[i].store_unaligned(buffer.collided[i] + w);
         }
     }
 
+    template <GasVariant variant>
+    static void collide_bytes(const GasView& v, std::int32_t row, WordRange range, const Buffer& buffer) {
+        const WordSource source = source_of(v, row);
+        const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(row) * v.stride;
+        RowPlanes planes{{}, {}, v.stride};
+        for (int i = 0; i < gas_planes; ++i) {
+            planes.from[i] = v.plane[i] + start;
+            planes.to[i] = buffer.collided[i];
+        }
+        ByteCollisions<Arch>::collide(source, range, planes);
+        if constexpr (variant == GasVariant::general)
+            for (std::int32_t w = range.first; w < range.last; w += lanes) {
+                W before[gas_planes], n[gas_planes];
+                for (int i = 0; i < gas_planes; ++i) {
+                    before[i] = load_words<Arch>(planes.from[i] + w);
+                    n[i] = load_words<Arch>(planes.to[i] + w);
+                }
+                const W index = lane_numbers<Arch>() + W(static_cast<std::uint64_t>(w));
+                turn_and_return<GasModel::fhp3>(v, source, index, start + w, before, n);
+                for (int i = 0; i < gas_planes; ++i) n[i].store_unaligned(planes.to[i] + w);
+            }
+    }
+
     // The same where any number of particles rests on a site.
     static void collide_counted_row(const GasView& v, std::int32_t row, const Buffer& buffer) {
-        const WordSource source{{v.seed[0], v.seed[1]}, static_cast<std::uint32_t>(row), v.step};
+        const WordSource source = source_of(v, row);
         const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(row) * v.stride;
         const W lane = lane_numbers<Arch>();
         for (std::int32_t w = 0; w < v.stride; w += lanes) {
@@ -172,7 +207,7 @@ template <class Arch> struct GasRows {
         }
         // Straight: 4 -> 1, 5 -> 2; mirrored: 4 -> 2, 5 -> 1. Above, the same the other way.
         const std::uint64_t *first = buffer.collided[lower ? 4 : 1], *second = buffer.collided[lower ? 5 : 2];
-        const WordSource source{{v.seed[0], v.seed[1]}, static_cast<std::uint32_t>(row), v.step};
+        const WordSource source = source_of(v, row);
         const W lane = lane_numbers<Arch>();
         for (std::int32_t w = 0; w < v.stride; w += lanes)
             draw(source, lane + W(static_cast<std::uint64_t>(w)), gas_stream::wall, v.roughness)

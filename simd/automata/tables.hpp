@@ -158,6 +158,9 @@ using HeapKernel = void (*)(const HeapView&, std::uint32_t first_grain, std::int
 struct AutomataKernels {
     GasKernel gas[gas_models][gas_variants]; // null where a model has no such variant
     GasPairKernel gas_pair[gas_models][gas_variants];
+    // FHP-III again, by a table of bytes; null where the processor lacks the instructions.
+    GasKernel fhp3_bytes[gas_variants];
+    GasPairKernel fhp3_bytes_pair[gas_variants];
     HopKernel hops;
     PileKernel pile[2][2];        // heights of 1 or 2 bytes; full or unit topplings
     PileKernel pile_odometer;     // 2 bytes, full

@@ -44,17 +44,20 @@ simd::GasVariant variant_of(const GasLattice& lattice, const GasRules& rules) {
 } // namespace
 
 GasStepper::GasStepper(const GasLattice& lattice, const GasRules& rules, const Means& means,
-                       bool active_tiles)
+                       bool active_tiles, bool by_planes)
     : rules_(rules), means_(means), rows_(lattice.rows),
       tiles_(static_cast<std::size_t>((lattice.rows + simd::gas_tile_rows - 1) / simd::gas_tile_rows)),
+      crew_(static_cast<int>(std::min(static_cast<std::size_t>(means.threads), tiles_))),
       scratch_words_(padded(simd::gas_scratch_words(lattice.stride))) {
     if (means.isa == simd::Isa::scalar) return;
     const simd::AutomataKernels& kernels = simd::automata_kernels(means.isa);
     const int model = static_cast<int>(rules.model), variant = static_cast<int>(variant_of(lattice, rules));
-    kernel_ = kernels.gas[model][variant];
+    by_bytes_ = rules.model == GasModel::fhp3 && !by_planes && kernels.fhp3_bytes[variant] != nullptr;
+    kernel_ = by_bytes_ ? kernels.fhp3_bytes[variant] : kernels.gas[model][variant];
     const std::int32_t last_rows = rows_ - first_row(tiles_ - 1);
-    if (!active_tiles && last_rows >= 3) pair_ = kernels.gas_pair[model][variant];
-    scratch_.resize(2 * scratch_words_ * static_cast<std::size_t>(means.threads));
+    if (!active_tiles && last_rows >= 3)
+        pair_ = by_bytes_ ? kernels.fhp3_bytes_pair[variant] : kernels.gas_pair[model][variant];
+    scratch_.resize(2 * scratch_words_ * static_cast<std::size_t>(crew_));
     const std::size_t edge_words = tiles_ * 2 * static_cast<std::size_t>(lattice.stride);
     for (Edges* edges : {&edges_, &second_}) {
         edges->into_first.resize(edge_words);
@@ -68,23 +71,19 @@ GasStepper::GasStepper(const GasLattice& lattice, const GasRules& rules, const M
 }
 
 // Particles move by one site: what is near an occupied segment may be occupied next.
-void GasStepper::spread_activity(const GasLattice& lattice) {
+void GasStepper::spread_activity(const GasLattice& lattice, std::size_t tile) {
     const std::int32_t segments = lattice.stride / simd::segment_words,
                        last = (lattice.words - 1) / simd::segment_words, rows = lattice.rows;
-    for_tiles(tiles_, means_.threads, [&](std::size_t k) {
-        const std::int32_t first = static_cast<std::int32_t>(k) * simd::gas_tile_rows;
-        for (std::int32_t y = first; y < std::min(first + simd::gas_tile_rows, rows); ++y)
-            for (std::int32_t s = 0; s < segments; ++s) {
-                std::uint8_t any = 0;
-                for (const std::int32_t row : {(y + rows - 1) % rows, y, (y + 1) % rows}) {
-                    const std::uint8_t* o = occupied_.data() + std::ptrdiff_t{row} * segments;
-                    any |=
-                        static_cast<std::uint8_t>(o[s] | o[s > 0 ? s - 1 : last] | o[s < last ? s + 1 : 0]);
-                }
-                live_[static_cast<std::size_t>(y) * static_cast<std::size_t>(segments) +
-                      static_cast<std::size_t>(s)] = s <= last ? any : 0;
+    for (std::int32_t y = first_row(tile); y < std::min(first_row(tile + 1), rows); ++y)
+        for (std::int32_t s = 0; s < segments; ++s) {
+            std::uint8_t any = 0;
+            for (const std::int32_t row : {(y + rows - 1) % rows, y, (y + 1) % rows}) {
+                const std::uint8_t* o = occupied_.data() + std::ptrdiff_t{row} * segments;
+                any |= static_cast<std::uint8_t>(o[s] | o[s > 0 ? s - 1 : last] | o[s < last ? s + 1 : 0]);
             }
-    });
+            live_[static_cast<std::size_t>(y) * static_cast<std::size_t>(segments) +
+                  static_cast<std::size_t>(s)] = s <= last ? any : 0;
+        }
 }
 
 simd::GasView GasStepper::view(GasLattice& lattice, std::uint32_t t) const {
@@ -117,7 +116,7 @@ simd::GasTile GasStepper::tile(const GasLattice& lattice, std::size_t k, Edges& 
 }
 
 std::uint64_t* GasStepper::scratch() {
-    const auto thread = means_.threads > 1 ? static_cast<std::size_t>(thread_index()) : 0;
+    const auto thread = crew_ > 1 ? static_cast<std::size_t>(thread_index()) : 0;
     return scratch_.data() + thread * 2 * scratch_words_;
 }
 
@@ -150,32 +149,49 @@ void GasStepper::put_edges(GasLattice& lattice, const Edges& edges, std::size_t 
     }
 }
 
-void GasStepper::step(GasLattice& lattice, std::uint32_t t, const simd::CountedView* counted) {
+void GasStepper::run(GasLattice& lattice, std::uint32_t t, std::int64_t steps) {
     if (kernel_ == nullptr) {
-        reference::step(lattice, rules_, t);
+        for (std::int64_t n = 0; n < steps; ++n) reference::step(lattice, rules_, t++);
         return;
     }
+    with_crew(crew_, [&](Crew& crew) {
+        std::uint32_t at = t;
+        for (std::int64_t left = steps; left > 0;) {
+            const int taken = pair_ != nullptr && left > 1 ? 2 : 1;
+            if (taken == 2)
+                two_steps(crew, lattice, at);
+            else
+                one_step(crew, lattice, at, nullptr);
+            at += static_cast<std::uint32_t>(taken);
+            left -= taken;
+        }
+    });
+}
+
+void GasStepper::step(GasLattice& lattice, std::uint32_t t, const simd::CountedView* counted) {
+    if (kernel_ == nullptr)
+        reference::step(lattice, rules_, t);
+    else
+        with_crew(crew_, [&](Crew& crew) { one_step(crew, lattice, t, counted); });
+}
+
+void GasStepper::one_step(Crew& crew, GasLattice& lattice, std::uint32_t t,
+                          const simd::CountedView* counted) {
     simd::GasView v = view(lattice, t);
     v.live = live_.empty() ? nullptr : live_.data();
     v.occupied = live_.empty() ? nullptr : occupied_.data();
     v.counted = counted;
-    for_tiles(tiles_, means_.threads,
-              [&](std::size_t k) { kernel_(v, tile(lattice, k, edges_), scratch()); });
-    for_tiles(rules_.closed ? tiles_ - 1 : tiles_, means_.threads,
-              [&](std::size_t lower) { put_edges(lattice, edges_, lower); });
-    if (!live_.empty()) spread_activity(lattice);
+    crew.for_tiles(tiles_, [&](std::size_t k) { kernel_(v, tile(lattice, k, edges_), scratch()); });
+    crew.for_tiles(rules_.closed ? tiles_ - 1 : tiles_,
+                   [&](std::size_t lower) { put_edges(lattice, edges_, lower); });
+    if (!live_.empty()) crew.for_tiles(tiles_, [&](std::size_t k) { spread_activity(lattice, k); });
 }
 
 // First, every tile: two steps of its rows, but of the outermost ones, which need rows of other tiles after
 // the first step, only one. Then these two rows of each pair of neighbours.
-void GasStepper::step_twice(GasLattice& lattice, std::uint32_t t) {
-    if (pair_ == nullptr) {
-        step(lattice, t);
-        step(lattice, t + 1);
-        return;
-    }
+void GasStepper::two_steps(Crew& crew, GasLattice& lattice, std::uint32_t t) {
     const simd::GasView v = view(lattice, t), later = view(lattice, t + 1);
-    for_tiles(tiles_, means_.threads, [&](std::size_t k) {
+    crew.for_tiles(tiles_, [&](std::size_t k) {
         const simd::GasTile first = tile(lattice, k, edges_);
         simd::GasTile second = first;
         // What the second step sends from within the tile into its outermost rows waits.
@@ -189,8 +205,8 @@ void GasStepper::step_twice(GasLattice& lattice, std::uint32_t t) {
         second.last -= first.above[0] != nullptr ? 1 : 0;
         pair_(v, first, second, scratch());
     });
-    for_tiles(rules_.closed ? tiles_ - 1 : tiles_, means_.threads,
-              [&](std::size_t lower) { finish_pair(lattice, later, lower); });
+    crew.for_tiles(rules_.closed ? tiles_ - 1 : tiles_,
+                   [&](std::size_t lower) { finish_pair(lattice, later, lower); });
 }
 
 void GasStepper::finish_pair(GasLattice& lattice, const simd::GasView& later, std::size_t lower) {
@@ -217,16 +233,13 @@ void GasStepper::finish_pair(GasLattice& lattice, const simd::GasView& later, st
 // ---- the model
 
 void GasFlow::run(std::int64_t steps) {
-    for (const std::int64_t last = step_ + steps; step_ < last; look()) {
-        const auto t = static_cast<std::uint32_t>(step_);
-        if (looks() || last - step_ < 2) {
-            stepper_.step(lattice_, t);
-            ++step_;
-        } else {
-            stepper_.step_twice(lattice_, t);
-            step_ += 2;
-        }
+    if (!looks()) {
+        stepper_.run(lattice_, static_cast<std::uint32_t>(step_), steps);
+        step_ += steps;
+        return;
     }
+    for (const std::int64_t last = step_ + steps; step_ < last; look())
+        stepper_.step(lattice_, static_cast<std::uint32_t>(step_++));
 }
 
 std::string GasFlow::serialise() const {
@@ -298,8 +311,9 @@ Facts GasFlow::facts() const {
                                 rules_.directions() == 4 ? "square" : "triangular (bricks)")},
         {"kernels", means_.isa == simd::Isa::scalar
                         ? "the scalar reference, site by site"
-                        : fmt::format("bit planes, in place, tiles of {} rows{}", simd::gas_tile_rows,
-                                      looks() ? "" : ", two steps in a pass")}};
+                        : fmt::format("bit planes, in place, tiles of {} rows{}{}", simd::gas_tile_rows,
+                                      looks() ? "" : ", two steps in a pass",
+                                      stepper_.by_bytes() ? ", collisions by a table of bytes" : "")}};
     if (!lattice_.solid.empty()) {
         std::size_t solid = 0;
         for (const std::uint64_t w : lattice_.solid) solid += static_cast<std::size_t>(std::popcount(w));

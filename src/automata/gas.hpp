@@ -66,13 +66,15 @@ struct GasRules {
 // Steps of a lattice by kernels, in tiles of rows.
 class GasStepper {
 public:
-    // active_tiles: pass over segments of rows without particles.
+    // active_tiles: pass over segments of rows without particles. by_planes: FHP-III by Boolean expressions
+    // also where a table of bytes is faster.
     GasStepper(const GasLattice& lattice, const GasRules& rules, const Means& means,
-               bool active_tiles = false);
+               bool active_tiles = false, bool by_planes = false);
+    // Steps t, t + 1, ..., two in one pass over the memory where that can be done.
+    void run(GasLattice& lattice, std::uint32_t t, std::int64_t steps);
     // counted: of rules with any number of rest particles.
     void step(GasLattice& lattice, std::uint32_t t, const simd::CountedView* counted = nullptr);
-    // Two steps, in one pass over the memory where that can be done.
-    void step_twice(GasLattice& lattice, std::uint32_t t);
+    [[nodiscard]] bool by_bytes() const { return by_bytes_; }
     void visit_all() { live_.fill(1); } // after particles were put anywhere
 
 private:
@@ -81,6 +83,8 @@ private:
         Column<std::uint64_t> into_first, into_last;
     };
 
+    void one_step(Crew& crew, GasLattice& lattice, std::uint32_t t, const simd::CountedView* counted);
+    void two_steps(Crew& crew, GasLattice& lattice, std::uint32_t t);
     [[nodiscard]] simd::GasView view(GasLattice& lattice, std::uint32_t t) const;
     [[nodiscard]] std::int32_t first_row(std::size_t tile) const {
         return static_cast<std::int32_t>(tile) * simd::gas_tile_rows;
@@ -90,16 +94,18 @@ private:
     [[nodiscard]] std::uint64_t* scratch();
     void put_edges(GasLattice& lattice, const Edges& edges, std::size_t lower) const;
     void finish_pair(GasLattice& lattice, const simd::GasView& later, std::size_t lower);
-    void spread_activity(const GasLattice& lattice);
+    void spread_activity(const GasLattice& lattice, std::size_t tile);
 
     GasRules rules_;
     Means means_;
     simd::GasKernel kernel_ = nullptr;   // null: the reference
     simd::GasPairKernel pair_ = nullptr; // null: steps are taken one by one
+    bool by_bytes_ = false;
     std::int32_t rows_;
     std::size_t tiles_;
+    int crew_; // threads that find a tile
     std::size_t scratch_words_;
-    Column<std::uint64_t> scratch_; // [threads][2][scratch_words]
+    Column<std::uint64_t> scratch_; // [crew][2][scratch_words]
     Edges edges_, second_;
     Column<std::uint8_t> live_, occupied_; // [rows][segments]; empty: all rows are whole
 };

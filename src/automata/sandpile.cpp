@@ -44,6 +44,7 @@ PileSweeper::PileSweeper(const PileLattice& lattice, const Means& means, bool ac
     changed_.resize((bands_ + 2) * (strips_ + 2), 1);
     next_.resize(changed_.size(), 0);
     topplings_.resize(bands_ * strips_);
+    sums_.resize(bands_);
     visits_.resize(bands_);
 }
 
@@ -80,9 +81,8 @@ std::uint64_t PileSweeper::sweep_tiles(PileLattice& lattice, bool unit, Column<s
                               odometer != nullptr ? odometer->data() + lattice.origin() : nullptr,
                               lattice.strips};
     const std::size_t wide = strips_ + 2;
-    next_.fill(0);
-    topplings_.fill(0);
     for_tiles(bands_, means_.threads, [&](std::size_t band) {
+        begin_band(band, topplings_);
         const std::uint8_t* around = changed_.data() + band * wide;
         const auto is_active = [&](std::size_t strip) {
             std::uint8_t any = 0;
@@ -110,12 +110,23 @@ std::uint64_t PileSweeper::sweep_tiles(PileLattice& lattice, bool unit, Column<s
             visits_[band] += strip - first;
             kernel(view, tiles);
         }
+        sums_[band] = sum_of_band(band, topplings_);
     });
     lattice.heights.swap(lattice.other);
     changed_.swap(next_);
     visited_ = static_cast<double>(std::accumulate(visits_.begin(), visits_.end(), std::uint64_t{0})) /
                static_cast<double>(bands_ * strips_);
-    return std::accumulate(topplings_.begin(), topplings_.end(), std::uint64_t{0});
+    return std::accumulate(sums_.begin(), sums_.end(), std::uint64_t{0});
+}
+
+void PileSweeper::begin_band(std::size_t band, Column<std::uint64_t>& topplings) {
+    std::fill_n(next_.data() + (band + 1) * (strips_ + 2), strips_ + 2, std::uint8_t{0});
+    std::fill_n(topplings.data() + band * strips_, strips_, std::uint64_t{0});
+}
+
+std::uint64_t PileSweeper::sum_of_band(std::size_t band, const Column<std::uint64_t>& topplings) const {
+    const std::uint64_t* strip = topplings.data() + band * strips_;
+    return std::accumulate(strip, strip + strips_, std::uint64_t{0});
 }
 
 namespace {
@@ -160,6 +171,10 @@ void PileSweeper::sweep_block(const Pair& pair, std::size_t block) {
         pair.view(pair.site(lattice.heights, low - 1), between + simd::strip_bytes, low - 1);
     const simd::PileView out =
         pair.view(between + simd::strip_bytes + stride, pair.site(lattice.other, low), low);
+    for (std::size_t band = block * block_bands; band < std::min((block + 1) * block_bands, bands_); ++band) {
+        begin_band(band, first_topplings_);
+        begin_band(band, topplings_);
+    }
     std::vector<std::uint64_t> uncounted(strips_); // of rows of the neighbouring blocks
     std::vector<std::uint8_t> unseen(strips_);
     for (const std::int32_t at : {0, rows + 1}) {
@@ -195,9 +210,6 @@ std::array<std::uint64_t, 2> PileSweeper::sweep_pair(PileLattice& lattice, bool 
                         static_cast<std::size_t>(means_.threads),
                     0);
     first_topplings_.resize(topplings_.size());
-    first_topplings_.fill(0);
-    topplings_.fill(0);
-    next_.fill(0);
     const bool counts = odometer != nullptr;
     const Pair pair{lattice,
                     plain,

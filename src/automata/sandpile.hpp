@@ -69,18 +69,21 @@ public:
 private:
     struct Pair;
     void sweep_block(const Pair& pair, std::size_t block);
+    // What a band notes in a sweep, empty; and its topplings.
+    void begin_band(std::size_t band, Column<std::uint64_t>& topplings);
+    [[nodiscard]] std::uint64_t sum_of_band(std::size_t band, const Column<std::uint64_t>& topplings) const;
     [[nodiscard]] double active_share() const;
     std::uint64_t sweep_tiles(PileLattice& lattice, bool unit, Column<std::uint8_t>* odometer);
 
     Means means_;
     bool active_tiles_, large_;
     std::size_t strips_, bands_;
-    Column<std::uint64_t> inner_;           // mask of the last strip
-    Column<std::uint8_t> changed_, next_;   // [bands][strips], between borders of zeros
-    Column<std::uint64_t> topplings_;       // [bands][strips]
-    Column<std::uint64_t> first_topplings_; // of a pair
-    Column<std::uint8_t> between_;          // [threads]: rows of a block between the two sweeps
-    std::vector<std::uint64_t> visits_;     // by band
+    Column<std::uint64_t> inner_;              // mask of the last strip
+    Column<std::uint8_t> changed_, next_;      // [bands][strips], between borders of zeros
+    Column<std::uint64_t> topplings_;          // [bands][strips]
+    Column<std::uint64_t> first_topplings_;    // of a pair
+    Column<std::uint8_t> between_;             // [threads]: rows of a block between the two sweeps
+    std::vector<std::uint64_t> sums_, visits_; // by band: topplings, tiles visited
     double visited_ = 1;
 };
 

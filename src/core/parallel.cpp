@@ -48,7 +48,36 @@ int threads_from_environment(const char* name) {
     return value;
 }
 
+// Leaves the core to its sibling for a moment.
+void pause() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    asm volatile("yield");
+#endif
+}
+
 } // namespace
+
+void Crew::meet() {
+    if (size_ == 1) return;
+    const std::uint32_t meeting = meetings_.load(std::memory_order_relaxed);
+    if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == size_) {
+        arrived_.store(0, std::memory_order_relaxed);
+        meetings_.store(meeting + 1, std::memory_order_release);
+        return;
+    }
+    // Whoever is awaited may need this processor: at once if there are fewer than threads, after some us
+    // if another program has taken some.
+    int patience = size_ > omp_get_num_procs() ? 0 : 200;
+    while (meetings_.load(std::memory_order_acquire) == meeting)
+        if (patience > 0) {
+            --patience;
+            pause();
+        } else {
+            std::this_thread::yield();
+        }
+}
 
 int allowed_cpus() {
     const int affinity = affinity_cpus();

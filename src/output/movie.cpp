@@ -24,6 +24,13 @@ std::size_t count_pictures(const fs::path& folder) {
     return count;
 }
 
+// The folder as a part of ffmpeg's pattern of names, where % is written twice.
+std::string escaped(const fs::path& folder) {
+    std::string out;
+    for (const char c : folder.string()) out += c == '%' ? std::string("%%") : std::string(1, c);
+    return out;
+}
+
 std::vector<std::string> arguments(const fs::path& folder) {
     // About ten seconds, neither jerky nor a blur.
     const std::size_t rate = std::clamp<std::size_t>(count_pictures(folder) / 10, 5, 30);
@@ -34,7 +41,7 @@ std::vector<std::string> arguments(const fs::path& folder) {
             "-framerate",
             std::to_string(rate),
             "-i",
-            (folder / "pictures" / "%06d.png").string(),
+            escaped(folder / "pictures") + "/%06d.png",
             "-vf",
             "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white",
             "-c:v",
@@ -81,7 +88,11 @@ bool run_silently(const std::vector<std::string>& words) {
 
 std::string write_movie(const fs::path& folder) {
     const std::vector<std::string> words = arguments(folder);
-    if (count_pictures(folder) > 0 && run_silently(words)) return {};
+    if (count_pictures(folder) > 0) {
+        if (run_silently(words)) return {};
+        std::error_code status;
+        fs::remove(folder / "movie.mp4", status); // half of one
+    }
     std::string command;
     for (const std::string& word : words) {
         if (!command.empty()) command += ' ';

@@ -91,6 +91,13 @@ TEST(Collisions, BooleanExpressionsAreTheTables) {
                 }
 }
 
+TEST(Collisions, TableOfBytesIsTheRule) {
+    constexpr simd::StateTable table = simd::fhp3_table();
+    for (int s = 0; s < 128; ++s)
+        for (const bool xi : {false, true})
+            EXPECT_EQ(table.to[xi ? 1 : 0][s], reference::collide(GasModel::fhp3, s, xi, false)) << s;
+}
+
 TEST(Collisions, GravityTurnsOneParticle) {
     int fixed = 0;
     for (int s = 0; s < 128; ++s) {

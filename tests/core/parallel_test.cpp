@@ -71,6 +71,27 @@ TEST(Tiles, EachIsDoneOnce) {
         }
 }
 
+// More threads than processors as well: whoever waits gives way.
+TEST(Tiles, CrewMeetsBetweenRounds) {
+    constexpr int rounds = 200;
+    for (const int threads : {1, 2, 3, 7}) {
+        std::vector<int> tiles(5, 0);
+        int serial = 0, early = 0;
+        with_crew(threads, [&](Crew& crew) {
+            for (int round = 0; round < rounds; ++round) {
+                crew.for_tiles(tiles.size(), [&](std::size_t tile) { ++tiles[tile]; });
+                crew.once([&] {
+                    serial += 1;
+                    for (const int count : tiles) early += count != round + 1 ? 1 : 0;
+                });
+            }
+        });
+        EXPECT_EQ(tiles, std::vector<int>(5, rounds)) << threads;
+        EXPECT_EQ(serial, rounds) << threads;
+        EXPECT_EQ(early, 0) << threads;
+    }
+}
+
 } // namespace
 
 } // namespace sandlane

@@ -1,5 +1,7 @@
-// Movies, with a stand-in for ffmpeg that notes its arguments.
+// Movies, with a stand-in for ffmpeg that notes its arguments, and with ffmpeg itself where it is installed.
 #include "output/picture.hpp"
+
+#include "output/canvas.hpp"
 
 #include "output/sample.hpp"
 #include "output/support.hpp"
@@ -94,4 +96,44 @@ TEST(Movie, NoPicturesNoMovie) {
     const Path path(make_ffmpeg(folder, 0));
     EXPECT_NE(write_movie(folder.path()), "");
     EXPECT_FALSE(fs::exists(folder / "arguments"));
+}
+
+TEST(Movie, FailureLeavesNoHalfMovie) {
+    const sample::Folder folder("half-movie");
+    const fs::path run = make_run(folder);
+    write_file_atomically(run / "movie.mp4", "half");
+    const Path path(make_ffmpeg(folder, 1));
+    EXPECT_NE(write_movie(run), "");
+    EXPECT_FALSE(fs::exists(run / "movie.mp4"));
+}
+
+// Pictures of an odd size, in a folder whose name means something to ffmpeg.
+TEST(Movie, FfmpegMakesOneOfPictures) {
+    if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) // NOLINT(*-env33-c): whether it is there
+        GTEST_SKIP() << "ffmpeg is not installed";
+    const sample::Folder folder("real-movie");
+    const fs::path run = folder / "100%d";
+    fs::create_directories(run / "pictures");
+    constexpr int frames = 12;
+    for (int k = 0; k < frames; ++k) {
+        const float shade = static_cast<float>(k) / frames;
+        write_file_atomically(run / "pictures" / fmt::format("{:06}.png", k),
+                              Canvas(65, 33, {shade, shade, shade}).png());
+    }
+    EXPECT_EQ(write_movie(run), "");
+    const std::string movie = read_file(run / "movie.mp4");
+    EXPECT_EQ(movie.substr(4, 4), "ftyp");
+    // Each picture comes out again, the size made even.
+    const fs::path hashes = folder / "hashes";
+    const std::string decode = fmt::format("ffmpeg -v error -y -i '{}' -f framehash '{}'",
+                                           (run / "movie.mp4").string(), hashes.string());
+    ASSERT_EQ(std::system(decode.c_str()), 0); // NOLINT(*-env33-c)
+    int decoded = 0;
+    bool even = false;
+    for (const std::string& line : lines_of(hashes)) {
+        decoded += line.starts_with("0,") ? 1 : 0;
+        even = even || line == "#dimensions 0: 66x34";
+    }
+    EXPECT_EQ(decoded, frames);
+    EXPECT_TRUE(even);
 }
