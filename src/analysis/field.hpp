@@ -16,6 +16,7 @@ struct Field {
     std::vector<double> values;
     bool is_signed = false; // shown around zero
     double high = 0;        // end of the colour scale; 0: chosen from the values
+    std::string caption{};  // under the picture, where the engine has no better one
 };
 
 struct Table {

@@ -104,7 +104,7 @@ public:
         for (const analysis::Field& field : model_.final_fields()) {
             output::write_npy(folder_ / (field.name + ".npy"), field);
             add_figure(field.name, field.label,
-                       output::draw_field(field, field.name, output::scale_of(field), width_));
+                       output::draw_field(field, field.caption, output::scale_of(field), width_));
         }
         for (const analysis::Table& table : model_.final_tables()) {
             write_file_atomically(folder_ / (table.name + ".csv"),
@@ -115,10 +115,11 @@ public:
         }
         const std::vector<analysis::Field> fields = model_.fields();
         if (map_steps_ != never && model_.step() != mapped_) write_maps(fields); // the end
-        if (!fields.empty())
-            figures_.insert(figures_.begin(), {fmt::format("{} at the end", fields.front().label),
-                                               output::draw_field(fields.front(), caption(),
-                                                                  output::scale_of(fields.front()), width_)});
+        if (fields.empty()) return;
+        const analysis::Field& shown = fields.front();
+        const std::string png = output::draw_field(shown, caption(), output::scale_of(shown), width_);
+        write_file_atomically(folder_ / "end.png", png);
+        figures_.insert(figures_.begin(), {fmt::format("{} at the end", shown.label), png});
     }
     [[nodiscard]] std::int64_t pictures() const override { return pictures_.count(); }
     void add_to_report(output::ReportInput& report) const override { report.figures = figures_; }

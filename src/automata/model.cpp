@@ -6,11 +6,13 @@
 #include "automata/sandpile.hpp"
 #include "core/error.hpp"
 
+#include <algorithm>
+
 namespace sandlane::automata {
 
-// Lattices, and the numbers of a picture of them.
+// Lattices; the numbers of a picture of them, three of a site; checkpoints, text that grows by doubling.
 double memory_bytes(const scene::Scene& scene) {
-    constexpr double picture = 24; // a site: three copies
+    constexpr double picture = 24, checkpoint = 3; // a site; times the state
     const auto sites = [](std::int64_t columns, std::int64_t rows) {
         return static_cast<double>(columns) * static_cast<double>(rows);
     };
@@ -30,16 +32,19 @@ double memory_bytes(const scene::Scene& scene) {
         return sites(scene.ripples.columns, scene.ripples.rows) * (24 + picture);
     case scene::Engine::lattice_gas: {
         const scene::LatticeGas& s = scene.lattice_gas;
-        return bits(s.columns, s.rows, simd::gas_planes + (scene.obstacles.empty() ? 0 : 1)) +
-               sites(s.columns, s.rows) * picture;
+        // Pictures show means of blocks.
+        return bits(s.columns, s.rows, simd::gas_planes + (scene.obstacles.empty() ? 0 : 1)) *
+               (1 + checkpoint);
     }
     case scene::Engine::pipe_flow: { // and the series of the density and the map
         const scene::PipeFlow& s = scene.pipe_flow;
         const double lattice = s.variant == scene::PipeVariant::counted_rest
-                                   ? sites(s.length, s.width) * 6
-                                   : bits(s.length, s.width, simd::gas_planes);
-        return lattice + sites(s.length, s.width) * picture +
-               8 * (static_cast<double>(s.steps) + 512.0 * static_cast<double>(s.length));
+                                   ? sites(s.length, s.width) * (6 + picture)
+                                   : bits(s.length, s.width, simd::gas_planes) * (1 + checkpoint);
+        const double rows =
+            std::min(512.0, 1 + 128 * static_cast<double>(s.steps) / static_cast<double>(s.length));
+        return lattice +
+               8 * (1 + checkpoint) * (static_cast<double>(s.steps) + rows * static_cast<double>(s.length));
     }
     default:
         return 0;

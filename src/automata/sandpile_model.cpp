@@ -231,8 +231,10 @@ std::vector<Field> SandpileModel::fields() const {
         for (const std::int32_t h : toppling_matrix(potential_)) field.values.push_back(h);
         return {field};
     }
+    std::vector<Quantity> heights = quantities();
     return {{"height", "grains", "", static_cast<std::size_t>(lattice_.columns),
-             static_cast<std::size_t>(lattice_.rows), quantities()[0].values, false, stable_ ? 3.0 : 0.0}};
+             static_cast<std::size_t>(lattice_.rows), std::move(heights[0].values), false,
+             stable_ ? 3.0 : 0.0}};
 }
 
 std::vector<Table> SandpileModel::final_tables() const {

@@ -3,15 +3,52 @@
 #include <unsupported/Eigen/FFT>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 namespace sandlane::automata {
 
+namespace {
+
+using Numbers = std::vector<std::complex<double>>;
+
+constexpr std::size_t largest_factor = 32; // that the library need not square
+
+std::size_t largest_prime_factor(std::size_t n) {
+    std::size_t largest = 1;
+    for (std::size_t p = 2; p * p <= n; ++p)
+        for (; n % p == 0; n /= p) largest = p;
+    return std::max(largest, n);
+}
+
+// By the convolution with a chirp exp(i pi k^2/n), on a power of two (Bluestein 1970).
+Numbers chirped(const Numbers& values) {
+    const std::size_t n = values.size(), m = std::bit_ceil(2 * n - 1);
+    Numbers chirp(n), a(m, 0), b(m, 0), transformed, product(m);
+    for (std::size_t k = 0; k < n; ++k) {
+        const auto turns = static_cast<double>(k * k % (2 * n)) / static_cast<double>(n); // of half a circle
+        chirp[k] = std::polar(1.0, std::numbers::pi * turns);
+        a[k] = values[k] * std::conj(chirp[k]);
+        b[k] = b[(m - k) % m] = chirp[k];
+    }
+    Eigen::FFT<double> transform;
+    transform.fwd(transformed, a);
+    transform.fwd(product, b);
+    for (std::size_t k = 0; k < m; ++k) product[k] *= transformed[k];
+    transform.inv(a, product);
+    a.resize(n);
+    for (std::size_t k = 0; k < n; ++k) a[k] *= std::conj(chirp[k]);
+    return a;
+}
+
+} // namespace
+
 std::vector<std::complex<double>> fourier(const std::vector<std::complex<double>>& values) {
     if (values.size() < 2) return values; // the library wants more
-    std::vector<std::complex<double>> transformed;
+    if (largest_prime_factor(values.size()) > largest_factor) return chirped(values);
+    Numbers transformed;
     Eigen::FFT<double> transform;
     transform.fwd(transformed, values);
     return transformed;

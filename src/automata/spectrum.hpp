@@ -7,8 +7,7 @@
 
 namespace sandlane::automata {
 
-// Discrete Fourier transform, sum over j of values[j] exp(-2 pi i j k/n). Fast for lengths without large
-// primes.
+// Discrete Fourier transform, sum over j of values[j] exp(-2 pi i j k/n), of any length n in n log n steps.
 [[nodiscard]] std::vector<std::complex<double>> fourier(const std::vector<std::complex<double>>& values);
 
 struct Spectrum {

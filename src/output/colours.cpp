@@ -106,6 +106,7 @@ double largest_finite(const std::vector<double>& values) {
 double usual_high(const std::vector<double>& values) {
     const double largest = largest_finite(values);
     std::vector<double> finite;
+    finite.reserve(values.size());
     std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
                  [](double value) { return std::isfinite(value); });
     if (finite.empty()) return 0;

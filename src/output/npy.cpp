@@ -22,6 +22,7 @@ std::string npy_bytes(const analysis::Field& field) {
     bytes += static_cast<char>(length & 0xff);
     bytes += static_cast<char>(length >> 8);
     bytes += header;
+    bytes.reserve(bytes.size() + sizeof(float) * field.values.size());
     for (const double value : field.values) {
         const auto single = std::bit_cast<std::uint32_t>(static_cast<float>(value));
         bytes.append(reinterpret_cast<const char*>(&single), sizeof single);

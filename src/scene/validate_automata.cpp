@@ -70,6 +70,7 @@ void validate_sandpile(const Scene& scene, const std::string& file) {
     if (s.start != PileStart::uniform && (s.height != 0 || s.centre != 0 || s.drive != PileDrive::none))
         fail(Exit::invalid_input,
              "{}: sandpile.start: an identity knows its heights; leave out height, centre and drive", file);
+    // The topplings of a site, 0.168 times the square of the side, are counted by 32 bits.
     if (s.start != PileStart::uniform && std::max(s.columns, s.rows) > 100000)
         fail(Exit::invalid_input,
              "{}: sandpile.columns, rows: an identity has at most 100000 sites on a side", file);

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace sandlane::test {
 
 using nlohmann::json;
@@ -142,6 +144,79 @@ TEST_F(Automata, Refusals) {
     EXPECT_SAYS(o.err, "has no place in the book's format");
     EXPECT_SAYS(run({"render", "heap.toml", "a.png", "--view", "0,0,1"}).err,
                 "go with scenes of grains only");
+}
+
+// One line that names the key, exit code 2, and no folder of results.
+TEST_F(Automata, BadValuesLeaveNothing) {
+    const std::map<std::string, std::vector<std::string>> bad = {
+        {"sandpile",
+         {"columns=0", "columns=-1", "columns=3.5", "columns=nan", "columns=\"x\"", "columns=99999999999",
+          "rows=0", "centre=-1", "centre=65536", "height=56536", "height=-1", "start=\"full\"",
+          "sweep=\"half\"", "steps=-1", "columns=16777216"}},
+        {"identity", {"height=3", "centre=1", "columns=100001"}},
+        {"avalanches", {"steps=0", "height=256", "burn_in=-1", "drive=\"often\""}},
+        {"heap",
+         {"columns=1", "columns=0", "retained=1", "retained=-0.1", "sticking=0", "roughness=1.5",
+          "roughness=-1", "steps=1900000001", "heaps=0", "heaps=65537", "steepest=-1", "sides=\"three\""}},
+        {"ripples",
+         {"columns=0", "rows=-1", "creep=1.5", "creep=-0.1", "transport=-1", "transport=101", "length=-1",
+          "noise=1001", "landing=\"soft\"", "arithmetic=\"exact\"", "columns=500000"}},
+        {"gas",
+         {"columns=0", "columns=-64", "rows=0", "rows=71", "density=1.1", "density=-0.1", "density=nan",
+          "drive=2", "drive=-1e-9", "rule=\"fhp-4\"", "rule=3", "rule=\"hpp\"", "velocity=[0.5, 0]",
+          "velocity=0.1", "velocity=[nan, 0]", "chirality=\"alternating\"", "sides=\"open\"", "steps=-3",
+          "steps=4294967296"}},
+        {"pipe",
+         {"length=0", "width=-1", "dissipation=1.0001", "gravity=-0.1", "roughness=nan", "density=7.5",
+          "density=-1", "variant=\"two-rest\"", "window=201", "window=0"}},
+        {"counted", {"density=6.5"}},
+    };
+    const std::map<std::string, std::string> tables = {{"gas", "lattice_gas"},
+                                                       {"pipe", "pipe_flow"},
+                                                       {"counted", "pipe_flow"},
+                                                       {"identity", "sandpile"},
+                                                       {"avalanches", "sandpile"}};
+    const std::set<std::string> before = listing();
+    for (const auto& [name, keys] : bad) {
+        const std::string table = tables.contains(name) ? tables.at(name) : name;
+        std::vector<std::string> command = {"run", name + ".toml", "--out", "bad"};
+        if (name == "sandpile") command.insert(command.end(), {"--set", "sandpile.rows=16777216"});
+        for (const std::string& key : keys) {
+            std::vector<std::string> arguments = command;
+            arguments.insert(arguments.end(), {"--set", table + "." + key});
+            const Outcome o = run(arguments);
+            EXPECT_EQ(o.code, code_of(Exit::invalid_input)) << name << ' ' << key;
+            EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+            EXPECT_SAYS(o.err, table);
+            EXPECT_EQ(o.out, "");
+        }
+    }
+    EXPECT_EQ(listing(), before);
+}
+
+// What `check` says a scene needs is what it takes, beside some 20 MB of the program and its libraries.
+TEST_F(Automata, SlowMemoryIsWhatThePlanSays) {
+    const std::map<std::string, std::vector<std::string>> large = {
+        {"sandpile", {"sandpile.columns=3000", "sandpile.rows=2000", "sandpile.steps=3"}},
+        {"identity", {"sandpile.columns=300", "sandpile.rows=300"}},
+        {"avalanches", {"sandpile.columns=1500", "sandpile.rows=1500", "sandpile.steps=30"}},
+        {"ripples", {"ripples.columns=1500", "ripples.rows=1500", "ripples.steps=2"}},
+        {"gas", {"lattice_gas.columns=8192", "lattice_gas.rows=4096", "lattice_gas.steps=2"}},
+        {"counted", {"pipe_flow.length=20000", "pipe_flow.width=100", "pipe_flow.steps=2"}},
+    };
+    for (const auto& [name, keys] : large) {
+        std::vector<std::string> arguments = {name + ".toml"};
+        for (const std::string& key : keys) arguments.insert(arguments.end(), {"--set", key});
+        std::vector<std::string> check = arguments;
+        check.insert(check.begin(), "check");
+        check.emplace_back("--json");
+        const double said = json::parse(run_well(check).out)["memory_bytes"];
+        arguments.insert(arguments.begin(), "run");
+        arguments.insert(arguments.end(), {"--out", "large-" + name, "--threads", "1"});
+        const double peak = run_well(arguments).memory;
+        EXPECT_LT(peak, said + 25e6) << name;
+        EXPECT_GT(peak, said / 4) << name;
+    }
 }
 
 TEST_F(Automata, StatesOfOtherLatticesAreRefused) {

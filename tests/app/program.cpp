@@ -82,7 +82,7 @@ void Process::send(int signal) const {
 }
 
 bool Process::running() {
-    if (id_ > 0 && ::waitpid(id_, &status_, WNOHANG) == id_) id_ = -1;
+    if (id_ > 0 && ::wait4(id_, &status_, WNOHANG, &usage_) == id_) id_ = -1;
     return id_ > 0;
 }
 
@@ -91,11 +91,12 @@ Outcome Process::wait() {
     Outcome o;
     o.out = drain(out_);
     o.err = drain(err_);
-    while (id_ > 0 && ::waitpid(id_, &status_, 0) < 0 && errno == EINTR) {
+    while (id_ > 0 && ::wait4(id_, &status_, 0, &usage_) < 0 && errno == EINTR) {
     }
     id_ = -1;
     o.code = WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
     o.signal = WIFSIGNALED(status_) ? WTERMSIG(status_) : 0;
+    o.memory = 1024 * static_cast<double>(usage_.ru_maxrss);
     return o;
 }
 

@@ -37,6 +37,7 @@ struct Outcome {
     int code = -1;  // exit code; -1 after a signal
     int signal = 0; // that ended it
     std::string out, err;
+    double memory = 0; // bytes, at most resident
 };
 
 class Process {
@@ -53,6 +54,7 @@ public:
 private:
     pid_t id_ = -1;
     int status_ = 0;
+    rusage usage_{};
     int out_ = -1, err_ = -1; // read ends of pipes
 };
 

@@ -216,7 +216,7 @@ TEST(Spectrum, PowerLawOfAPowerLaw) {
 }
 
 TEST(Spectrum, FourierOfAllLengths) {
-    for (const std::size_t n : {1U, 2U, 8U, 10U, 27U, 64U, 101U}) {
+    for (const std::size_t n : {1U, 2U, 3U, 8U, 10U, 27U, 37U, 64U, 101U, 259U, 509U}) {
         std::vector<std::complex<double>> values(n);
         for (std::size_t i = 0; i < n; ++i)
             values[i] = {std::cos(static_cast<double>(i * i)), static_cast<double>(i)};

@@ -2,6 +2,7 @@
 // conservation, and kernels of every instruction set and thread count against the reference.
 #include "automata/reference/ripples.hpp"
 #include "automata/spectrum.hpp"
+#include "core/error.hpp"
 #include "scene/reader.hpp"
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdlib>
 #include <numbers>
 #include <numeric>
 
@@ -154,6 +156,27 @@ TEST(Ripples, WavelengthThatWins) {
     }
 }
 
+// Also where the number of columns is odd, no multiple of four, or prime.
+TEST(Ripples, PowersOfModesOfAllLengths) {
+    for (const std::int32_t n : {1, 2, 3, 6, 7, 10, 13, 74, 101}) {
+        std::vector<double> h;
+        for (std::int32_t x = 0; x < 2 * n; ++x) h.push_back(std::sin(1.0 + x * x));
+        const std::vector<double> powers = mode_powers(h, n, 2);
+        ASSERT_EQ(powers.size(), static_cast<std::size_t>(n / 2));
+        for (std::int32_t m = 1; m <= n / 2; ++m) {
+            double expected = 0;
+            for (std::int32_t row = 0; row < 2; ++row) {
+                std::complex<double> sum = 0;
+                for (std::int32_t x = 0; x < n; ++x)
+                    sum += h[static_cast<std::size_t>(row * n + x)] *
+                           std::polar(1.0, -2 * std::numbers::pi * (m * x % n) / n);
+                expected += std::norm(sum);
+            }
+            EXPECT_NEAR(powers[static_cast<std::size_t>(m - 1)], expected, 1e-10 * n * n) << n << ' ' << m;
+        }
+    }
+}
+
 std::vector<double> plane_start() {
     std::vector<double> h(100 * 50);
     for (std::int64_t j = 0; j < 50; ++j)
@@ -254,6 +277,32 @@ TEST(Ripples, KernelsAreTheReference) {
     for (const std::int32_t columns : {1, 5, 8, 15, 16, 63, 100})
         for (const std::int32_t rows : {1, 2, 3, 17, 34})
             expect_same_bits({columns, rows, rules(.6, 2, 7.3, .8)}, 4, 6);
+}
+
+// A height beyond 2^18 ends the run before the step, whatever computes it, and nothing has changed.
+TEST(Ripples, HeightsBeyondTheNumbersOfKernelsAreRefusedAtTheSameStep) {
+    constexpr std::int32_t columns = 19, rows = 18;
+    const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(padded(std::size_t{columns})) + 16;
+    constexpr auto limit = static_cast<std::int64_t>(0x1p50); // of 2^-32
+    for (const simd::Isa isa : simd::available_isas())
+        for (const std::int64_t height : {limit, limit + 1, -limit, -limit - 1})
+            for (const std::int32_t row : {0, rows - 1}) {
+                Column<std::int64_t> h(static_cast<std::size_t>(stride * rows), 0);
+                h[static_cast<std::size_t>(row * stride + 8 + columns - 1)] = height;
+                const Column<std::int64_t> before = h;
+                RippleStepper stepper(columns, rows, rules(.6, 0, 7.3, .8), {isa, 2});
+                if (std::abs(height) <= limit) {
+                    stepper.step(h, 0);
+                    continue;
+                }
+                try {
+                    stepper.step(h, 0);
+                    ADD_FAILURE() << simd::isa_name(isa) << ' ' << height;
+                } catch (const Error& e) {
+                    EXPECT_EQ(e.code(), Exit::unstable);
+                }
+                EXPECT_TRUE(std::equal(h.begin(), h.end(), before.begin()));
+            }
 }
 
 TEST(Ripples, KernelsOfEveryRule) {
