@@ -98,12 +98,30 @@ SANDLANE_INLINE std::int32_t count_candidates(const GasCollisionView& view, cons
     return active;
 }
 
+// Says what became of candidate k of the cells of a block.
+template <class Arch>
+SANDLANE_INLINE void tell(const GasCollisionView& view, const std::uint64_t (&offsets)[2][width],
+                          const Words<Arch>& number, std::uint32_t k, unsigned real, unsigned accepted) {
+    alignas(64) std::uint64_t cell[width];
+    number.store(cell);
+    const auto identity = [&](std::uint64_t offset) {
+        std::uint32_t id;
+        std::memcpy(&id, reinterpret_cast<const char*>(view.rows.place + 3) + offset, sizeof id);
+        return id;
+    };
+    for (int l = 0; l < width; ++l)
+        if ((real >> l & 1u) != 0)
+            view.listener.hear(view.listener.to,
+                               {static_cast<std::uint32_t>(cell[l]), k, identity(offsets[0][l]),
+                                identity(offsets[1][l]), (accepted >> l & 1u) != 0});
+}
+
 // Candidate k of the listed cells: appends the accepted pairs to their lists and keeps the cells that have
 // more candidates; returns the number of either.
 struct Chosen {
     std::int32_t accepted, left;
 };
-template <class Arch, int dimension>
+template <class Arch, int dimension, bool heard>
 SANDLANE_INLINE Chosen choose_pairs(const GasCollisionView& view, const Philox& random,
                                     const CandidateLists& lists, std::int32_t active, std::uint32_t k,
                                     GasCollisions& result) {
@@ -136,6 +154,7 @@ SANDLANE_INLINE Chosen choose_pairs(const GasCollisionView& view, const Philox& 
         const R speed = sqrt(dot(g, g));
         const unsigned yes = bits(unit_number(draw.w[2], draw.w[3]) * most < speed) & real;
         result.violations += __builtin_popcount(bits(speed > most) & real);
+        if constexpr (heard) tell(view, offsets, number, k, real, yes);
         append(first, yes, lists.first + chosen.accepted);
         append(second, yes, lists.second + chosen.accepted);
         append(number, yes, lists.cell + chosen.accepted);
@@ -216,8 +235,11 @@ template <class Arch, int dimension, bool rough> GasCollisions collide_gas(const
         count_candidates<Arch, dimension>(view, random(0, GasStream::rounding), lists, result);
     for (std::uint32_t k = 0; active > 0; ++k) {
         result.candidates += active;
+        const Philox draws = random(k, GasStream::candidate);
         const Chosen chosen =
-            choose_pairs<Arch, dimension>(view, random(k, GasStream::candidate), lists, active, k, result);
+            view.listener.hear == nullptr
+                ? choose_pairs<Arch, dimension, false>(view, draws, lists, active, k, result)
+                : choose_pairs<Arch, dimension, true>(view, draws, lists, active, k, result);
         const Philox geometry = random(k, GasStream::geometry);
         for (int l = 0; l < width; ++l) { // behind the last one anything valid
             lists.first[chosen.accepted + l] = lists.first[0];

@@ -65,6 +65,17 @@ using GasSort = std::int32_t (*)(const SortView&);
 
 enum class GasScheme { no_time_counter, direction_first, nanbu_babovsky, majorant_frequency, bernoulli };
 
+// What became of a candidate, for those who compare runs.
+struct GasDecision {
+    std::uint32_t cell, candidate;
+    std::uint32_t first, second; // identities of the pair
+    bool accepted;
+};
+struct GasListener {
+    void (*hear)(void* to, const GasDecision&) = nullptr; // null: nobody listens
+    void* to = nullptr;
+};
+
 struct GasCollisionView {
     GasRows rows; // sorted; eight more rows of velocity and spin may be read
     const std::int32_t* start;
@@ -80,6 +91,7 @@ struct GasCollisionView {
     // Rough particles: eps_t, m_t/m_eff = q/(1 + q), radius, q, and friction (0: none) that bounds eps_t.
     double tangential, mass_ratio, radius, inertia, friction;
     GasRandom random;
+    GasListener listener;
 };
 inline constexpr double most_candidates = 1e6; // of a cell in a step
 struct GasCollisions {

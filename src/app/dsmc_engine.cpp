@@ -94,6 +94,18 @@ std::vector<Difference> DsmcEngine::compare_kernels(simd::Isa first, simd::Isa s
     return differences(a.particles(), b.particles());
 }
 
+std::vector<Decision> DsmcEngine::take_decisions() {
+    std::vector<Decision> all;
+    for (const auto& [step, of] : simulation_.take_decisions())
+        all.push_back({step, 0, of.cell, of.candidate, of.first, of.second, of.accepted ? 1U : 0U});
+    return all;
+}
+
+std::string DsmcEngine::tell(const Decision& d) const {
+    return fmt::format("step {}, cell {}, candidate {}: particles {} and {} {}", d.step, d.place, d.number,
+                       d.first, d.second, d.outcome == 1 ? "collide" : "do not collide");
+}
+
 std::vector<analysis::LogColumn> DsmcEngine::log_columns() const {
     std::vector<analysis::LogColumn> columns = {
         {"time", "s"},   {"step", "1"},        {"temperature", "J"},  {"a2", "1"},

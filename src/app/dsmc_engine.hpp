@@ -45,6 +45,13 @@ public:
     [[nodiscard]] std::vector<Difference> compare_kernels(simd::Isa first, simd::Isa second) const override;
     [[nodiscard]] std::string kernels_compared() const override { return "One step from the initial state"; }
 
+    bool keep_decisions() override {
+        simulation_.keep_decisions();
+        return true;
+    }
+    [[nodiscard]] std::vector<Decision> take_decisions() override;
+    [[nodiscard]] std::string tell(const Decision& decision) const override;
+
     [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override;
     [[nodiscard]] std::vector<double> log_row() override;
     [[nodiscard]] std::vector<std::string> news() override;

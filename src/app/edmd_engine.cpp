@@ -111,6 +111,13 @@ public:
         return "100 events from the present state";
     }
 
+    bool keep_decisions() override {
+        run_->log().record(&events_);
+        return true;
+    }
+    [[nodiscard]] std::vector<Decision> take_decisions() override;
+    [[nodiscard]] std::string tell(const Decision& decision) const override;
+
     [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override;
     [[nodiscard]] std::vector<double> log_row() override;
     [[nodiscard]] std::vector<std::string> news() override {
@@ -158,7 +165,24 @@ private:
     std::unique_ptr<edmd::Algorithm> run_;
     bool ended_ = false; // nothing is left to happen until the end
     Mark mark_;
+    std::vector<edmd::Event> events_; // since they were taken the last time
 };
+
+std::vector<Decision> EdmdEngine::take_decisions() {
+    std::vector<Decision> all;
+    std::int64_t number = step() - static_cast<std::int64_t>(events_.size());
+    for (const edmd::Event& e : events_)
+        all.push_back({++number, e.time, 0, 0, e.first, e.second, static_cast<std::uint32_t>(e.kind)});
+    events_.clear();
+    return all;
+}
+
+std::string EdmdEngine::tell(const Decision& d) const {
+    const bool pair = d.outcome == static_cast<std::uint32_t>(edmd::Event::Kind::pair);
+    return fmt::format("event {} at {} s of its epoch: particle {} {}", d.step, d.time, d.first,
+                       pair ? fmt::format("and particle {}", d.second)
+                            : fmt::format("at side {}{}", "-+"[d.second % 2], "xyz"[d.second / 2 % 3]));
+}
 
 std::vector<analysis::LogColumn> EdmdEngine::log_columns() const {
     std::vector<analysis::LogColumn> columns = {{"time", "s"}, {"event", "1"}, {"temperature", "J"}};

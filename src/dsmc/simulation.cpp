@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace sandlane::dsmc {
 
@@ -213,7 +214,25 @@ void Simulation::pass(Pass what) {
         fail(Exit::unstable, "step {}: {} (dt = {} s); use a smaller time step", step_,
              overflows > 0 ? "a cell wants more than a million collisions" : "velocities are not finite",
              dt_);
-    if (what.collide) square_sum_ = squares;
+    if (what.collide) {
+        square_sum_ = squares;
+        note_decisions();
+    }
+}
+
+// Kernels look at one candidate of many cells at a time; the order is that of cell after cell.
+void Simulation::note_decisions() {
+    for (auto& of_tile : heard_) {
+        std::sort(of_tile.begin(), of_tile.end(), [](const auto& a, const auto& b) {
+            return std::pair(a.cell, a.candidate) < std::pair(b.cell, b.candidate);
+        });
+        for (const simd::GasDecision& decision : of_tile) decisions_.push_back({step_, decision});
+        of_tile.clear();
+    }
+}
+
+std::vector<Decision> Simulation::take_decisions() {
+    return std::exchange(decisions_, {});
 }
 
 void Simulation::work_on(std::int32_t t, Pass what) {
@@ -304,7 +323,7 @@ std::int32_t Simulation::gather(std::int32_t t, Scratch& scratch) const {
     return kernels_->sort(view);
 }
 
-void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) const {
+void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) {
     simd::GasCollisionView view{};
     view.rows = scratch.sorted.view();
     view.start = scratch.start.data();
@@ -323,6 +342,11 @@ void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) const
     view.inertia = setup_.inertia;
     view.friction = setup_.friction;
     view.random = random();
+    if (!heard_.empty())
+        view.listener = {[](void* to, const simd::GasDecision& decision) {
+                             static_cast<std::vector<simd::GasDecision>*>(to)->push_back(decision);
+                         },
+                         &heard_[static_cast<std::size_t>(t)]};
     const simd::DsmcKernels& kernels =
         setup_.scheme == simd::GasScheme::no_time_counter ? *kernels_ : simd::dsmc_kernels(simd::Isa::scalar);
     result.collisions = kernels.collide[setup_.dimension - 2][setup_.rough ? 1 : 0](view);

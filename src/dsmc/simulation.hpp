@@ -19,6 +19,11 @@ struct Counts {
     std::int64_t candidates = 0, collisions = 0, violations = 0, stuck = 0;
 };
 
+struct Decision {
+    std::int64_t step;
+    simd::GasDecision of;
+};
+
 // Sums over all particles, in the order of their ids.
 struct Observables {
     double temperature = 0;           // m <(v - u)^2>/d, J
@@ -39,6 +44,10 @@ public:
     void run(std::int64_t steps, double until = std::numeric_limits<double>::infinity());
     // Goes on with the kernels of another instruction set.
     void use(simd::Isa isa) { kernels_ = &simd::dsmc_kernels(isa); }
+
+    // From now on: what became of every candidate, by step, cell and candidate.
+    void keep_decisions() { heard_.resize(tiles_.size()); }
+    [[nodiscard]] std::vector<Decision> take_decisions(); // since the last call
 
     [[nodiscard]] std::int64_t step() const { return step_; }
     [[nodiscard]] double time() const { return time_; }
@@ -100,7 +109,8 @@ private:
     void pass(Pass what);
     void work_on(std::int32_t tile, Pass what);
     [[nodiscard]] std::int32_t gather(std::int32_t tile, Scratch& scratch) const;
-    void collide(std::int32_t tile, Scratch& scratch, Result& result) const;
+    void collide(std::int32_t tile, Scratch& scratch, Result& result);
+    void note_decisions();
     void send(std::int32_t tile, Scratch& scratch, Result& result);
     [[nodiscard]] simd::GasFlightView flight_view(Pass what) const;
     void choose_next_dt();
@@ -126,6 +136,8 @@ private:
            first_square_sum_ = 0; // of the velocities after the last collisions, at the start
     Counts counts_;
     double wall_energy_ = 0;
+    std::vector<std::vector<simd::GasDecision>> heard_; // of this step, by tile; empty: nobody listens
+    std::vector<Decision> decisions_;
 };
 
 } // namespace sandlane::dsmc

@@ -98,6 +98,8 @@ struct GasValidator {
         if (side.velocity.*direction.component != 0)
             reject("sides[{}].velocity: its {} component must be 0; a wall moves along itself", n,
                    direction.name);
+        unused(side.amplitude == 0 && side.frequency == 0 && side.phase != 0, "phase",
+               "the wall does not oscillate");
         if ((side.amplitude > 0) != (side.frequency > 0))
             reject("sides[{}]: an oscillation needs both amplitude and frequency above 0", n);
         const double length =

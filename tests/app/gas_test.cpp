@@ -85,6 +85,7 @@ TEST_F(Gas, ComparesBitForBit) {
         const Outcome o = run_well({"compare", "gas.toml", "--steps", "20", "--set", change});
         EXPECT_SAYS(o.out, "identical, bit for bit");
         EXPECT_SAYS(o.out, "velocity z");
+        EXPECT_SAYS(o.out, "of them, the same");
     }
 }
 
@@ -144,6 +145,9 @@ TEST_F(Gas, Refuses) {
         {"restitution = 0.9", "friction = 0.9", {"gas.friction", "smooth"}},
         {"restitution = 0.9", "model = \"viscoelastic\"", {"gas.dissipation", "needs it"}},
         {"duration = 20", "duration = 20\nadaptive = true\nheating = 1", {"dsmc.adaptive", "heat"}},
+        {"temperature = 1\n\n[dsmc]",
+         "temperature = 1\nphase = 1\n\n[dsmc]",
+         {"sides[0].phase", "oscillate"}},
         {"temperature = 1\n\n[dsmc]", "temperature = 1\namplitude = 1\n\n[dsmc]", {"sides[0]", "frequency"}},
     };
     for (const Bad& bad : bads) {

@@ -79,6 +79,36 @@ TEST(Bits, EveryInstructionSetAndThreadCount) {
     }
 }
 
+// Which pairs are looked at and which collide: the same decisions in the same order.
+TEST(Bits, Decisions) {
+    for (const Case& c : cases()) {
+        const auto start = dsmc::maxwellian(c.setup, c.particles, 1, c.setup.rough ? 0.5 : 0);
+        dsmc::Simulation reference(c.setup, start, simd::Isa::scalar, 1);
+        reference.keep_decisions();
+        reference.run(4);
+        const auto expected = reference.take_decisions();
+        EXPECT_TRUE(reference.take_decisions().empty());
+        ASSERT_EQ(static_cast<std::int64_t>(expected.size()), reference.counts().candidates) << c.name;
+        std::int64_t accepted = 0;
+        for (const auto& d : expected) accepted += d.of.accepted ? 1 : 0;
+        EXPECT_EQ(accepted, reference.counts().collisions) << c.name;
+        for (const simd::Isa isa : simd::available_isas()) {
+            dsmc::Simulation other(c.setup, start, isa, 2);
+            other.keep_decisions();
+            other.run(4);
+            const auto found = other.take_decisions();
+            ASSERT_EQ(found.size(), expected.size()) << c.name;
+            for (std::size_t n = 0; n < found.size(); ++n) {
+                const simd::GasDecision &a = found[n].of, &b = expected[n].of;
+                ASSERT_TRUE(found[n].step == expected[n].step && a.cell == b.cell &&
+                            a.candidate == b.candidate && a.first == b.first && a.second == b.second &&
+                            a.accepted == b.accepted)
+                    << c.name << " " << simd::isa_name(isa) << " " << n;
+            }
+        }
+    }
+}
+
 TEST(Bits, OneRunOrSeveralOrAfterACheckpoint) {
     for (const Case& c : cases()) {
         const auto start = dsmc::maxwellian(c.setup, c.particles, 1);

@@ -51,7 +51,9 @@ template <int dimension, bool rough> GasCollisions collide_gas(const GasCollisio
             const Vector<double> g = velocity_of(view.rows.velocity, i) - velocity_of(view.rows.velocity, j);
             const double speed = std::sqrt(dot(g, g));
             if (speed > majorant) ++result.violations;
-            if (!(unit_number(w[2], w[3]) * majorant < speed)) continue;
+            const bool accepted = unit_number(w[2], w[3]) * majorant < speed;
+            tell(view, cell, k, i, j, accepted);
+            if (!accepted) continue;
             collide<rough>(view, i, j, direction<dimension>(view, k, cell, g, speed));
             ++result.collisions;
         }

@@ -6,6 +6,7 @@
 #include "simd/dsmc/tables.hpp"
 
 #include <array>
+#include <cstring>
 
 namespace sandlane::simd::reference {
 
@@ -25,6 +26,18 @@ inline void add_to(double* rows, std::int32_t i, const Vector<double>& v) {
 }
 inline Vector<double> minus(const Vector<double>& v) {
     return {-v.x, -v.y, -v.z};
+}
+
+// Tells who listens what became of a candidate, a pair of rows.
+inline void tell(const GasCollisionView& view, std::uint32_t cell, std::uint32_t k, std::int32_t i,
+                 std::int32_t j, bool accepted) {
+    if (view.listener.hear == nullptr) return;
+    const auto identity = [&](std::int32_t row) {
+        std::uint32_t id = 0;
+        std::memcpy(&id, view.rows.place + std::ptrdiff_t{row} * gas_row + 3, sizeof id);
+        return id;
+    };
+    view.listener.hear(view.listener.to, {cell, k, identity(i), identity(j), accepted});
 }
 
 // Number of the first of two different particles of n, and of the second.

@@ -66,7 +66,9 @@ void direction_first(const GasCollisionView& view, const Cell& cell, GasCollisio
         const Vector<double> e = folded_direction<dimension>(view, k, cell, g);
         const double speed = std::abs(dot(g, e));
         if (speed > cell.majorant) ++result.violations;
-        if (!(unit_number(w[2], w[3]) * cell.majorant < speed)) continue;
+        const bool accepted = unit_number(w[2], w[3]) * cell.majorant < speed;
+        tell(view, cell.number, k, i, j, accepted);
+        if (!accepted) continue;
         collide<rough>(view, i, j, e);
         ++result.collisions;
     }
@@ -92,7 +94,9 @@ void nanbu_babovsky(const GasCollisionView& view, const Cell& cell, GasCollision
         const Vector<double> g = relative(view, i, j);
         const double probability = 2 * partners * cell.rate * std::sqrt(dot(g, g));
         if (probability > 1) ++result.violations;
-        if (!(unit_number(w[2], w[3]) < probability)) continue;
+        const bool accepted = unit_number(w[2], w[3]) < probability;
+        tell(view, cell.number, k, i, j, accepted);
+        if (!accepted) continue;
         collide_along<dimension, rough>(view, cell, k, i, j, g);
         ++result.collisions;
     }
@@ -114,7 +118,9 @@ void majorant_frequency(const GasCollisionView& view, const Cell& cell, GasColli
         const Vector<double> g = relative(view, i, j);
         const double speed = std::sqrt(dot(g, g));
         if (speed > cell.majorant) ++result.violations;
-        if (!(unit_number(w[2], w[3]) * cell.majorant < speed)) continue;
+        const bool accepted = unit_number(w[2], w[3]) * cell.majorant < speed;
+        tell(view, cell.number, k, i, j, accepted);
+        if (!accepted) continue;
         collide_along<dimension, rough>(view, cell, k, i, j, g);
         ++result.collisions;
     }
@@ -132,7 +138,9 @@ void bernoulli(const GasCollisionView& view, const Cell& cell, GasCollisions& re
             const Vector<double> g = relative(view, i, j);
             const double probability = 2 * cell.rate * std::sqrt(dot(g, g));
             if (probability > 1) ++result.violations;
-            if (!(unit_number(w[2], w[3]) < probability)) continue;
+            const bool accepted = unit_number(w[2], w[3]) < probability;
+            tell(view, cell.number, k, i, j, accepted);
+            if (!accepted) continue;
             collide_along<dimension, rough>(view, cell, k, i, j, g);
             ++result.collisions;
         }
