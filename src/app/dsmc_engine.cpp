@@ -13,8 +13,13 @@ namespace sandlane::app {
 
 namespace {
 
+void add_kinds(std::vector<analysis::LogColumn>& columns, const char* name, std::size_t kinds) {
+    for (std::size_t k = 0; k < kinds && kinds > 1; ++k)
+        columns.push_back({fmt::format("{}_{}", name, k), "J"});
+}
+
 std::vector<dsmc::Particle> start_of(const scene::Scene& scene, const dsmc::Plan& plan) {
-    return dsmc::maxwellian(plan.setup, static_cast<std::uint32_t>(scene.gas.particles),
+    return dsmc::maxwellian(plan.setup, static_cast<std::uint32_t>(dsmc::all_particles(scene)),
                             scene.gas.temperature, scene.gas.spin_temperature);
 }
 
@@ -75,8 +80,9 @@ void DsmcEngine::restore(const std::string& state, const std::string& origin) {
     try {
         simulation_.restore(state);
     } catch (const Error& e) {
-        fail(e.code(), "{}: {}. Overrides by --set must keep gas, domain, sides, cells and time step.",
-             origin, e.what());
+        fail(e.code(),
+             "{}: {}. Overrides by --set must keep gas, species, domain, sides, cells and time step.", origin,
+             e.what());
     }
 }
 
@@ -107,27 +113,45 @@ std::string DsmcEngine::tell(const Decision& d) const {
 }
 
 std::vector<analysis::LogColumn> DsmcEngine::log_columns() const {
-    std::vector<analysis::LogColumn> columns = {
-        {"time", "s"},   {"step", "1"},        {"temperature", "J"},  {"a2", "1"},
-        {"energy", "J"}, {"wall_energy", "J"}, {"velocity_x", "m/s"}, {"velocity_y", "m/s"}};
+    std::vector<analysis::LogColumn> columns = {{"time", "s"}, {"step", "1"}, {"temperature", "J"}};
+    add_kinds(columns, "temperature", kinds());
+    columns.insert(
+        columns.end(),
+        {{"a2", "1"}, {"energy", "J"}, {"wall_energy", "J"}, {"velocity_x", "m/s"}, {"velocity_y", "m/s"}});
     if (scene_->domain.dimension == 3) columns.push_back({"velocity_z", "m/s"});
     if (plan_->setup.rough) columns.push_back({"spin_temperature", "J"});
-    if (theory_) columns.push_back({"theory_temperature", "J"});
+    if (theory_) {
+        columns.push_back({"theory_temperature", "J"});
+        add_kinds(columns, "theory_temperature", kinds());
+    }
     columns.push_back({"collisions_per_particle", "1"});
     columns.push_back({"acceptance", "1"});
     columns.push_back({"dt", "s"});
     return columns;
 }
 
+void DsmcEngine::add_theory(std::vector<double>& row) const {
+    const dsmc::Setup& s = plan_->setup;
+    if (kinds() == 1) {
+        row.push_back(dsmc::cooling_curve(s, size(), scene_->gas.temperature, {time()}).front());
+        return;
+    }
+    const std::vector<double> of_kind = dsmc::kind_temperatures(s, size(), scene_->gas.temperature, time());
+    double mean = 0;
+    for (std::size_t k = 0; k < kinds(); ++k) mean += s.kind(k).fraction * of_kind[k];
+    row.push_back(mean);
+    row.insert(row.end(), of_kind.begin(), of_kind.end());
+}
+
 std::vector<double> DsmcEngine::log_row() {
     const dsmc::Observables o = simulation_.observe();
     const dsmc::Counts& counts = simulation_.counts();
-    std::vector<double> row = {time(),   static_cast<double>(step()), o.temperature, o.fourth,
-                               o.energy, simulation_.wall_energy(),   o.drift[0],    o.drift[1]};
+    std::vector<double> row = {time(), static_cast<double>(step()), o.temperature};
+    if (kinds() > 1) row.insert(row.end(), o.of_kind.begin(), o.of_kind.end());
+    row.insert(row.end(), {o.fourth, o.energy, simulation_.wall_energy(), o.drift[0], o.drift[1]});
     if (scene_->domain.dimension == 3) row.push_back(o.drift[2]);
     if (plan_->setup.rough) row.push_back(o.spin_temperature);
-    if (theory_)
-        row.push_back(dsmc::cooling_curve(plan_->setup, size(), scene_->gas.temperature, {time()}).front());
+    if (theory_) add_theory(row);
     // Two particles in each.
     row.push_back(2 * static_cast<double>(counts.collisions) / static_cast<double>(size()));
     row.push_back(counts.candidates > 0
@@ -169,8 +193,10 @@ analysis::Snapshot DsmcEngine::snapshot() const {
     analysis::Snapshot s = snapshot_of_box(*scene_);
     s.step = step();
     s.time = time();
-    for (const dsmc::Particle& p : simulation_.particles())
-        add_particle(s, p, 0.5 * scene_->gas.diameter, scene_->gas.mass, 0);
+    for (const dsmc::Particle& p : simulation_.particles()) {
+        const dsmc::Kind kind = plan_->setup.kind(p.kind);
+        add_particle(s, p, 0.5 * kind.diameter, kind.mass, static_cast<std::int32_t>(p.kind));
+    }
     return s;
 }
 
@@ -186,7 +212,11 @@ analysis::GasSamples DsmcEngine::make_samples() const {
 }
 
 void DsmcEngine::sample(analysis::GasSamples& samples) const {
-    samples.add(simulation_.particles());
+    const dsmc::Setup& s = plan_->setup;
+    if (kinds() == 1) return samples.add(simulation_.particles());
+    std::vector<double> ratio;
+    for (std::size_t k = 0; k < kinds(); ++k) ratio.push_back(s.kind(k).mass / s.mass);
+    samples.add(simulation_.particles(), [&](const dsmc::Particle& p) { return ratio[p.kind]; });
 }
 
 std::string DsmcEngine::plan_json() const {
@@ -227,7 +257,7 @@ public:
     [[nodiscard]] std::string description() const override { return dsmc::describe(*scene_, *plan_); }
     [[nodiscard]] std::string json() const override {
         const dsmc::Setup& s = plan_->setup;
-        const auto n = static_cast<std::size_t>(scene_->gas.particles);
+        const auto n = dsmc::all_particles(*scene_);
         const dsmc::Scales scale = dsmc::scales(s, n, scene_->gas.temperature);
         return fmt::format(
             R"({{"particles": {}, "cells": [{}, {}, {}], "dt": {}, "steps": {}, "collision_rate": {}, )"

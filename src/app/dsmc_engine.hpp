@@ -62,6 +62,8 @@ public:
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> report_rows() const override;
 
 private:
+    [[nodiscard]] std::size_t kinds() const { return plan_->setup.kinds(); }
+    void add_theory(std::vector<double>& row) const;
     [[nodiscard]] bool adaptive() const { return plan_->setup.adaptive; }
 
     std::shared_ptr<const scene::Scene> scene_;

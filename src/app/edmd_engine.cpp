@@ -1,4 +1,5 @@
 // Event-driven dynamics as an engine of the program. A step is an event.
+#include "analysis/gas_mixture.hpp"
 #include "app/gas_engine.hpp"
 #include "app/gas_recorder.hpp"
 #include "app/json.hpp"
@@ -33,6 +34,22 @@ std::vector<Difference> differences(const std::vector<edmd::Particle>& a,
     return found;
 }
 
+// What theory knows the temperatures of: smooth particles of several kinds, constant restitution, nothing
+// else. Empty: something else.
+analysis::MixtureGas mixture_of(const edmd::Plan& plan) {
+    const edmd::Setup& s = plan.setup;
+    analysis::MixtureGas gas;
+    if (s.classes.size() == 1 || s.rough || s.has_walls() || s.falls() ||
+        s.restitution.model != laws::Restitution::Model::constant)
+        return gas;
+    gas.dimension = s.dimension;
+    gas.dense = true;
+    for (std::size_t k = 0; k < s.classes.size(); ++k)
+        gas.kinds.push_back({plan.amounts[k] / s.volume(), s.classes[k].mass, 2 * s.classes[k].radius});
+    gas.restitution.assign(gas.size() * gas.size(), s.restitution.eps);
+    return gas;
+}
+
 // Sums at the last row of the log, from which the next row takes rates.
 struct Mark {
     double time = 0, virial = 0, temperature = 0;
@@ -44,7 +61,7 @@ public:
     EdmdEngine(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const edmd::Plan> plan,
                simd::Isa isa)
         : scene_(std::move(scene)), plan_(std::move(plan)), isa_(isa),
-          run_(edmd::start(*scene_, *plan_, isa)) {}
+          run_(edmd::start(*scene_, *plan_, isa)), mixture_(mixture_of(*plan_)) {}
 
     [[nodiscard]] const Words& words() const override {
         static const Words words{"particle", "particles", "particles", "events", "events", "s"};
@@ -165,6 +182,7 @@ private:
     std::unique_ptr<edmd::Algorithm> run_;
     bool ended_ = false; // nothing is left to happen until the end
     Mark mark_;
+    analysis::MixtureGas mixture_;    // no kinds: theory knows nothing
     std::vector<edmd::Event> events_; // since they were taken the last time
 };
 
@@ -194,6 +212,8 @@ std::vector<analysis::LogColumn> EdmdEngine::log_columns() const {
         columns.push_back({fmt::format("velocity_{}", "xyz"[d]), "m/s"});
     if (plan_->setup.rough) columns.push_back({"spin_temperature", "J"});
     if (plan_->homogeneous) columns.push_back({"theory_temperature", "J"});
+    for (std::size_t k = 0; k < mixture_.size(); ++k)
+        columns.push_back({fmt::format("theory_temperature_{}", k), "J"});
     columns.insert(columns.end(),
                    {{"collisions_per_particle", "1"}, {"collision_rate", "1/s"}, {"compressibility", "1"}});
     if (guards()) columns.push_back({"elastic_collisions", "1"});
@@ -212,6 +232,10 @@ std::vector<double> EdmdEngine::log_row() {
     if (plan_->homogeneous)
         row.push_back(
             analysis::cooling_curve(edmd::gas_of(*plan_), scene_->gas.temperature, {time()}).front());
+    if (mixture_.size() > 0) {
+        const auto of_kind = analysis::cooling_curves(mixture_, scene_->gas.temperature, {time()}).front();
+        row.insert(row.end(), of_kind.begin(), of_kind.end());
+    }
     const double interval = time() - mark_.time;
     const double rate =
         interval > 0 ? 2 * static_cast<double>(t.collisions - mark_.collisions) / (n * interval) : 0;

@@ -77,10 +77,17 @@ void Simulation::Scratch::require(std::size_t rows, bool rough) {
 Simulation::Simulation(const Setup& setup, const std::vector<Particle>& particles, simd::Isa isa, int threads)
     : setup_(setup), kernels_(&simd::dsmc_kernels(isa)), threads_(threads), size_(particles.size()) {
     setup_.walls.dimension = setup.dimension;
-    setup_.walls.radius = setup.rough ? 0.5 * setup.diameter : 0;
     setup_.walls.inertia = setup.inertia;
-    setup_.walls.spin_speed =
-        setup.rough ? 1 / std::sqrt(setup.inertia * 0.25 * setup.diameter * setup.diameter) : 0;
+    for (std::size_t k = 0; k < setup.kinds(); ++k) {
+        const Kind kind = setup.kind(k);
+        simd::GasWallKind& wall = setup_.walls.kind[k];
+        wall.mass = kind.mass / setup.mass;
+        wall.speed = std::sqrt(setup.mass / kind.mass);
+        if (!setup.rough) continue;
+        wall.radius = 0.5 * kind.diameter;
+        wall.spin_speed = 1 / std::sqrt(setup.inertia * 0.25 * kind.diameter * kind.diameter);
+    }
+    mixture_ = mixture_of(setup);
     for (int d = 0; d < 3; ++d) {
         setup_.walls.lower[d] = setup.lower[d];
         setup_.walls.upper[d] = setup.upper[d];
@@ -136,6 +143,7 @@ void Simulation::place_particles(const std::vector<Particle>& particles) {
             if (row.spin != nullptr) row.spin[d] = p.spin[d];
             images |= (static_cast<std::uint64_t>(static_cast<std::int64_t>(p.image[d])) & 0xfffff) << 20 * d;
         }
+        images |= static_cast<std::uint64_t>(p.kind) << 60;
         const std::uint64_t word = static_cast<std::uint64_t>(number[i]) << 32 | p.id;
         std::memcpy(row.place + 3, &word, sizeof word);
         std::memcpy(row.velocity + 3, &images, sizeof images);
@@ -329,11 +337,13 @@ void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) {
     view.start = scratch.start.data();
     view.first_cell = tiling_.first_cell(t);
     view.cells = tiling_.cells_per_tile();
-    for (int n = 0; n < 7; ++n) view.list[n] = scratch.lists[n].data();
+    for (int n = 0; n < simd::gas_lists; ++n) view.list[n] = scratch.lists[n].data();
     view.scheme = setup_.scheme;
     view.rate = 0.5 * setup_.weight * setup_.cross_section() * dt_ / setup_.cell_volume();
-    // Spins can make particles faster than any was.
-    view.margin = setup_.margin * (setup_.rough ? 1.2 : 1.0);
+    // Spins, or heavy partners, can make particles faster than any was.
+    const bool mixed = !setup_.others.empty();
+    view.margin = setup_.margin * (setup_.rough || mixed ? 1.2 : 1.0);
+    view.mixture = mixed ? &mixture_ : nullptr;
     view.packing = setup_.enskog ? setup_.weight * setup_.particle_volume() / setup_.cell_volume() : 0;
     view.restitution = setup_.restitution;
     view.tangential = setup_.tangential;
@@ -349,7 +359,7 @@ void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) {
                          &heard_[static_cast<std::size_t>(t)]};
     const simd::DsmcKernels& kernels =
         setup_.scheme == simd::GasScheme::no_time_counter ? *kernels_ : simd::dsmc_kernels(simd::Isa::scalar);
-    result.collisions = kernels.collide[setup_.dimension - 2][setup_.rough ? 1 : 0](view);
+    result.collisions = kernels.collide[setup_.dimension - 2][setup_.rough ? 1 : 0][mixed ? 1 : 0](view);
 }
 
 // Those that leave, by the tile they go to; the order is kept.

@@ -29,9 +29,10 @@ struct Observables {
     double temperature = 0;           // m <(v - u)^2>/d, J
     double spin_temperature = 0;      // J <w^2> per component, J; 0: smooth
     double energy = 0;                // kinetic, of translation and spin, of all real particles, J
-    double fourth = 0;                // a2 = <c^4> 4/(d (d + 2)) - 1 of the scaled velocities c
+    double fourth = 0;                // a2 = <c^4> 4/(d (d + 2)) - 1 of c = v sqrt(m/2T)
     std::array<double, 3> drift{};    // u, m/s
     double directions[3] = {0, 0, 0}; // m <(v - u)^2> of each component, J
+    std::vector<double> of_kind;      // temperature of each kind, J
 };
 
 class Simulation {
@@ -91,7 +92,7 @@ private:
     struct alignas(column_alignment) Scratch {
         Rows sorted, leaving;
         Column<std::int32_t> start, next[2], slot, targets;
-        Column<double> lists[7];
+        Column<double> lists[simd::gas_lists];
         std::vector<simd::GasSegment> segments;
         void require(std::size_t rows, bool rough);
     };
@@ -119,6 +120,7 @@ private:
     template <class Body> void for_rows(const Body& body) const;
 
     Setup setup_;
+    simd::GasMixture mixture_;
     Tiling tiling_;
     const simd::DsmcKernels* kernels_;
     int threads_;

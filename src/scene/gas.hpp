@@ -72,6 +72,13 @@ struct Species {
     double mass = 1, diameter = 1; // kg, m
 };
 
+// Restitution of two kinds: 0 are the particles of [gas], n those of the n-th [[species]].
+struct GasPair {
+    std::array<std::int64_t, 2> between{};
+    double restitution = 1; // as that of the gas, where the model has one
+    double dissipation = 0; // viscoelastic
+};
+
 enum class EventAlgorithm { automatic, improved, simple };
 
 struct Edmd {

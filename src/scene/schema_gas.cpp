@@ -19,6 +19,16 @@ std::string write_cells(const Dsmc& d, std::int64_t dimension) {
     return joined(counts);
 }
 
+void read_between(GasPair& p, const Value& v, const std::string& path, std::int64_t) {
+    if (v.kind != Value::Kind::array || v.items.size() != 2)
+        fail_at(v, path, "must be [kind, kind], numbers: 0 is [gas], 1 the first of [[species]]");
+    for (std::size_t n = 0; n < 2; ++n) p.between[n] = read_integer(v.items[n], path, between(0, 65000));
+}
+
+std::string write_between(const GasPair& p, std::int64_t) {
+    return fmt::format("[{}, {}]", p.between[0], p.between[1]);
+}
+
 } // namespace
 
 const Table<Gas>& gas_table() {
@@ -119,6 +129,20 @@ const Table<Species>& species_table() {
             .required()
             .number("mass", &Species::mass, Unit::mass, positive(), "of one")
             .number("diameter", &Species::diameter, Unit::length, positive(), "of one");
+    return table;
+}
+
+const Table<GasPair>& gas_pair_table() {
+    static const Table<GasPair> table =
+        Table<GasPair>("Restitution of two kinds of particles where it is not that of [gas].")
+            .custom({"between", "[kind, kind]", "", "0 or more",
+                     "0: the particles of [gas]; 1 and so on: those of [[species]], in their order", false,
+                     read_between, write_between})
+            .required()
+            .number("restitution", &GasPair::restitution, Unit::none, between(0, 1),
+                    "as that of [gas]; constant and saturating models")
+            .number("dissipation", &GasPair::dissipation, Unit::none, not_negative(),
+                    "as that of [gas]; viscoelastic model");
     return table;
 }
 

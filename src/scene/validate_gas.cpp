@@ -5,6 +5,7 @@
 #include "scene/space.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -44,7 +45,7 @@ struct GasValidator {
         double packing = static_cast<double>(gas.particles) * gas.weight *
                          grain_content(0.5 * gas.diameter, scene.domain.dimension) / volume;
         for (const Species& more : scene.species)
-            packing += static_cast<double>(more.particles) *
+            packing += static_cast<double>(more.particles) * gas.weight *
                        grain_content(0.5 * more.diameter, scene.domain.dimension) / volume;
         if (packing > most)
             reject(
@@ -121,6 +122,39 @@ struct GasValidator {
             reject("dsmc.adaptive: a heated gas does not cool down; leave out adaptive or heating");
     }
 
+    // What only some methods can do with several kinds of particles.
+    void check_mixture(std::size_t most_kinds) const {
+        if (scene.species.size() + 1 > most_kinds)
+            reject("species: {} of them; allowed: up to {} with this method", scene.species.size(),
+                   most_kinds - 1);
+        double count = static_cast<double>(scene.gas.particles);
+        for (const Species& more : scene.species) count += static_cast<double>(more.particles);
+        if (count > 2e9) reject("gas.particles: {:.4g} with all species; allowed: up to 2e9", count);
+        const auto kinds = static_cast<std::int64_t>(scene.species.size()) + 1;
+        for (std::size_t n = 0; n < scene.gas_pairs.size(); ++n) {
+            const GasPair& pair = scene.gas_pairs[n];
+            for (const std::int64_t kind : pair.between)
+                if (kind >= kinds)
+                    reject("gas_pairs[{}].between: kind {}; allowed: 0 to {}, 0 is [gas] and the others are "
+                           "[[species]]",
+                           n, kind, kinds - 1);
+            for (std::size_t other = 0; other < n; ++other) {
+                const auto& before = scene.gas_pairs[other].between;
+                if (before == pair.between || before == std::array{pair.between[1], pair.between[0]})
+                    reject("gas_pairs[{}].between: gas_pairs[{}] is the same pair", n, other);
+            }
+            const bool viscoelastic = scene.gas.model == RestitutionModel::viscoelastic;
+            if (viscoelastic && pair.restitution != 1)
+                reject("gas_pairs[{}].restitution: has no effect here, the gas is viscoelastic; give "
+                       "dissipation",
+                       n);
+            if (!viscoelastic && pair.dissipation != 0)
+                reject("gas_pairs[{}].dissipation: has no effect here, the gas is not viscoelastic; give "
+                       "restitution",
+                       n);
+        }
+    }
+
     void check_edmd() const {
         const Edmd& e = scene.edmd;
         if (scene.gas.weight != 1)
@@ -174,6 +208,7 @@ void validate_dsmc(const Scene& scene, const std::string& file) {
     // Beyond freezing there is no fluid that the contact values were made for.
     v.check_gas(laws::freezing_fraction[scene.domain.dimension - 2], "where the fluid freezes");
     for (std::size_t n = 0; n < scene.sides.size(); ++n) v.check_side(n);
+    v.check_mixture(16);
     v.check_dsmc();
 }
 

@@ -89,6 +89,34 @@ TEST_F(Gas, ComparesBitForBit) {
     }
 }
 
+// Kinds of particles: temperatures of each, the same bits, a checkpoint.
+TEST_F(Gas, Mixtures) {
+    const std::string more = "[[species]]\nparticles = 2000\nmass = 3\ndiameter = 1.5\n\n[[gas_pairs]]\n"
+                             "between = [1, 0]\nrestitution = 0.6\n\n[dsmc]";
+    write("gas.toml", replaced(gas_scene, "[dsmc]", more));
+    EXPECT_SAYS(run_well({"check", "gas.toml"}).out, "6000 of 2 kinds");
+    EXPECT_SAYS(run_well({"compare", "gas.toml", "--steps", "20", "--set", "dsmc.enskog=true"}).out,
+                "identical, bit for bit");
+    run_well({"run", "gas.toml", "--quiet", "--out", "whole"});
+    EXPECT_SAYS(read("whole/log.csv"), "temperature_0[J],temperature_1[J]");
+    run_well({"run", "gas.toml", "--quiet", "--out", "part", "--steps", "77"});
+    run_well({"run", "--resume", latest_checkpoint("part"), "--quiet"});
+    EXPECT_EQ(read("part/log.csv"), read("whole/log.csv"));
+    const auto refused = [&](const std::string& pairs, const char* says) {
+        write("bad.toml", replaced(gas_scene, "[dsmc]", pairs + "\n[dsmc]"));
+        const Outcome o = run({"check", "bad.toml"});
+        EXPECT_EQ(o.code, code_of(Exit::invalid_input)) << pairs;
+        EXPECT_SAYS(o.err, says);
+    };
+    refused("[[gas_pairs]]\nbetween = [0, 1]\nrestitution = 0.6", "kind 1; allowed: 0 to 0");
+    refused("[[gas_pairs]]\nbetween = [0]", "[kind, kind]");
+    refused("[[gas_pairs]]\nbetween = [0, 0]\ndissipation = 1", "not viscoelastic");
+    refused("[[gas_pairs]]\nbetween = [0, 0]\n[[gas_pairs]]\nbetween = [0, 0]", "the same pair");
+    std::string many;
+    for (int n = 0; n < 16; ++n) many += "[[species]]\nparticles = 1\n";
+    refused(many, "up to 15");
+}
+
 TEST_F(Gas, GoesOnAfterACheckpoint) {
     for (const char* adaptive : {"false", "true"}) {
         write("gas.toml", gas_scene);

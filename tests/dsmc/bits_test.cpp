@@ -51,6 +51,28 @@ std::vector<Case> cases() {
     s.kicks = 0.02;
     s.dt = 0.3;
     add("walls", s, 6000);
+    s = test::gas(3, 0.9, 6000, 12);
+    s.others = {{0.1, 0.6, 0.3}, {5, 1.7, 0.2}};
+    s.pairs = {{0, 1, 0.7, 0}, {2, 2, 0.5, 0}};
+    s.enskog = true;
+    s.kicks = 0.01;
+    add("mixture", s, 6000);
+    s = test::gas(2, 0.9, 4000, 20);
+    s.others = {{3, 1.4, 0.4}};
+    s.restitution.model = laws::Restitution::Model::viscoelastic;
+    s.restitution.dissipation = 0.05;
+    s.pairs = {{0, 1, 1, 0.2}};
+    s.rough = true;
+    s.tangential = -0.4;
+    s.friction = 0.3;
+    s.enskog = true;
+    s.walls.periodic[1] = false;
+    s.walls.side[1][0].kind = simd::GasSide::Kind::heated;
+    s.walls.side[1][0].thermal_speed = 1.2;
+    s.walls.side[1][1].eps_n = 0.9;
+    s.walls.side[1][1].eps_t = 0.2;
+    s.gravity[1] = -0.1;
+    add("rough_mixture", s, 4000);
     s = test::gas(3, 0.9, 900, 30); // hardly any particles
     s.cells[1] = 1;
     s.dt = 20; // far beyond a tile

@@ -33,9 +33,10 @@ template <int dimension, bool rough> GasCollisions collide_gas(const GasCollisio
         const std::int32_t begin = view.start[c], n = view.start[c + 1] - begin;
         if (n < 2) continue;
         const auto cell = static_cast<std::uint32_t>(view.first_cell + c);
-        const double majorant = view.margin * extent(view.rows.velocity + std::ptrdiff_t{begin} * gas_row, n);
-        double mean = view.rate * (static_cast<double>(n) * (n - 1)) * majorant;
-        if (view.packing > 0) mean *= laws::contact_correlation(dimension, view.packing * n);
+        const Crowding crowd = crowding(dimension, view, begin, n);
+        const double fastest = view.margin * extent(view.rows.velocity + std::ptrdiff_t{begin} * gas_row, n);
+        const double majorant = fastest * crowd.most;
+        const double mean = view.rate * (static_cast<double>(n) * (n - 1)) * majorant * crowd.factor;
         const PhiloxCounter rounding = draw(view.random, 0, cell, GasStream::rounding);
         const double wanted = std::floor(mean + unit_number(rounding[0], rounding[1]));
         if (!(wanted < most_candidates)) {
@@ -50,8 +51,9 @@ template <int dimension, bool rough> GasCollisions collide_gas(const GasCollisio
             const std::int32_t i = begin + first, j = begin + second;
             const Vector<double> g = velocity_of(view.rows.velocity, i) - velocity_of(view.rows.velocity, j);
             const double speed = std::sqrt(dot(g, g));
-            if (speed > majorant) ++result.violations;
-            const bool accepted = unit_number(w[2], w[3]) * majorant < speed;
+            const double counts = frequency(dimension, view, crowd, i, j) * speed;
+            if (counts > majorant) ++result.violations;
+            const bool accepted = unit_number(w[2], w[3]) * majorant < counts;
             tell(view, cell, k, i, j, accepted);
             if (!accepted) continue;
             collide<rough>(view, i, j, direction<dimension>(view, k, cell, g, speed));
