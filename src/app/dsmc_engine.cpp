@@ -201,7 +201,7 @@ analysis::Snapshot DsmcEngine::snapshot() const {
 }
 
 GasSampling DsmcEngine::sampling() const {
-    return {scene_->dsmc.sample_every, scene_->dsmc.sample_start};
+    return {scene_->dsmc.sample_every, scene_->dsmc.sample_start, scene_->dsmc.structure_every};
 }
 
 analysis::GasSamples DsmcEngine::make_samples() const {
@@ -217,6 +217,28 @@ void DsmcEngine::sample(analysis::GasSamples& samples) const {
     std::vector<double> ratio;
     for (std::size_t k = 0; k < kinds(); ++k) ratio.push_back(s.kind(k).mass / s.mass);
     samples.add(simulation_.particles(), [&](const dsmc::Particle& p) { return ratio[p.kind]; });
+}
+
+analysis::GasStructure DsmcEngine::make_structure() const {
+    const dsmc::Setup& s = plan_->setup;
+    analysis::StructurePlan plan;
+    plan.gas = dsmc::frame_of(s);
+    std::copy(std::begin(s.walls.periodic), std::end(s.walls.periodic), plan.periodic);
+    plan.reach = scene_->dsmc.cluster_reach;
+    plan.cell = counting_cell(dsmc::scales(s, size(), scene_->gas.temperature).free_path, s.volume(), size(),
+                              s.dimension);
+    return analysis::GasStructure(plan);
+}
+
+std::vector<analysis::StructureParticle> DsmcEngine::structure_particles() const {
+    std::vector<analysis::StructureParticle> all;
+    const dsmc::Setup& s = plan_->setup;
+    const double larger = std::pow(s.weight, 1.0 / s.dimension);
+    for (const dsmc::Particle& p : simulation_.particles()) {
+        const dsmc::Kind kind = s.kind(p.kind);
+        all.push_back({p.place, p.velocity, kind.mass, 0.5 * larger * kind.diameter});
+    }
+    return all;
 }
 
 std::string DsmcEngine::plan_json() const {

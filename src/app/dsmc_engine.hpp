@@ -21,6 +21,8 @@ public:
     [[nodiscard]] GasSampling sampling() const override;
     [[nodiscard]] analysis::GasSamples make_samples() const override;
     void sample(analysis::GasSamples& samples) const override;
+    [[nodiscard]] analysis::GasStructure make_structure() const override;
+    [[nodiscard]] std::vector<analysis::StructureParticle> structure_particles() const override;
 
     [[nodiscard]] const Words& words() const override;
     [[nodiscard]] const scene::Scene& scene() const override { return *scene_; }

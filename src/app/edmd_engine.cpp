@@ -146,7 +146,7 @@ public:
     }
     [[nodiscard]] analysis::Snapshot snapshot() const override;
     [[nodiscard]] GasSampling sampling() const override {
-        return {scene_->edmd.sample_every, scene_->edmd.sample_start};
+        return {scene_->edmd.sample_every, scene_->edmd.sample_start, scene_->edmd.structure_every};
     }
     [[nodiscard]] analysis::GasSamples make_samples() const override {
         return {edmd::frame_of(*plan_), static_cast<int>(scene_->edmd.profile_axis),
@@ -156,6 +156,26 @@ public:
         const std::vector<edmd::Class>& classes = plan_->setup.classes;
         samples.add(run_->particles(),
                     [&](const edmd::Particle& p) { return classes[p.kind].mass / classes[0].mass; });
+    }
+    [[nodiscard]] analysis::GasStructure make_structure() const override {
+        const edmd::Setup& s = plan_->setup;
+        analysis::StructurePlan plan;
+        plan.gas = edmd::frame_of(*plan_);
+        std::copy(std::begin(s.periodic), std::end(s.periodic), plan.periodic);
+        plan.reach = scene_->edmd.cluster_reach;
+        const analysis::HardGas gas = edmd::gas_of(*plan_);
+        const double speed = std::sqrt(scene_->gas.temperature / gas.mass);
+        const double rate = analysis::collision_rate(gas, scene_->gas.temperature);
+        plan.cell = counting_cell(1.5 * speed / rate, s.volume(), size(), s.dimension);
+        return analysis::GasStructure(plan);
+    }
+    [[nodiscard]] std::vector<analysis::StructureParticle> structure_particles() const override {
+        std::vector<analysis::StructureParticle> all;
+        for (const edmd::Particle& p : run_->particles()) {
+            const edmd::Class& c = plan_->setup.classes[p.kind];
+            all.push_back({p.place, p.velocity, c.mass, c.radius});
+        }
+        return all;
     }
     [[nodiscard]] std::string plan_json() const override {
         return fmt::format(R"({{"engine": "edmd", "algorithm": "{}", "rough": {}, "classes": {}}})",
@@ -264,14 +284,25 @@ analysis::Snapshot EdmdEngine::snapshot() const {
 std::vector<std::pair<std::string, std::string>> EdmdEngine::report_rows() const {
     const edmd::Observables o = edmd::observe(plan_->setup, run_->particles());
     const edmd::Tally& t = run_->tally();
-    return {{"Particles", std::to_string(size())},
-            {"Simulated time", fmt::format("{:.4g} s", time())},
-            {"Collisions", std::to_string(t.collisions)},
-            {"Hits of walls", std::to_string(t.wall_hits)},
-            {"Collisions per particle",
-             fmt::format("{:.4g}", 2 * static_cast<double>(t.collisions) / static_cast<double>(size()))},
-            {"Temperature", fmt::format("{:.4g} J", o.temperature)},
-            {"Smallest gap at a contact", fmt::format("{:.2g} m", t.smallest_gap)}};
+    std::vector<std::pair<std::string, std::string>> rows;
+    const analysis::HardGas gas = edmd::gas_of(*plan_);
+    if (plan_->homogeneous && gas.restitution.model == laws::Restitution::Model::constant &&
+        gas.restitution.eps < 1) {
+        const analysis::CriticalLengths l =
+            analysis::critical_lengths(gas.dimension, gas.restitution.eps, gas.density, gas.diameter);
+        rows.push_back({"Critical length of vortices, of clusters",
+                        fmt::format("{:.4g} m, {:.4g} m (dilute gas)", l.shear, l.cluster)});
+    }
+    rows.insert(rows.begin(),
+                {{"Particles", std::to_string(size())},
+                 {"Simulated time", fmt::format("{:.4g} s", time())},
+                 {"Collisions", std::to_string(t.collisions)},
+                 {"Hits of walls", std::to_string(t.wall_hits)},
+                 {"Collisions per particle",
+                  fmt::format("{:.4g}", 2 * static_cast<double>(t.collisions) / static_cast<double>(size()))},
+                 {"Temperature", fmt::format("{:.4g} J", o.temperature)},
+                 {"Smallest gap at a contact", fmt::format("{:.2g} m", t.smallest_gap)}});
+    return rows;
 }
 
 class EdmdSetup final : public Setup {

@@ -236,6 +236,13 @@ std::string describe(const scene::Scene& scene, const Plan& plan) {
     line("mean free path", fmt::format("{:.4g} m", scale.free_path));
     line("contact correlation", fmt::format("{:.4g}", scale.correlation));
     line("cooling", fmt::format("{:.4g} 1/s", scale.cooling));
+    if (is_homogeneous(s) && s.others.empty() && s.kicks == 0 &&
+        s.restitution.model == laws::Restitution::Model::constant && s.restitution.eps < 1) {
+        const analysis::CriticalLengths l =
+            analysis::critical_lengths(s.dimension, s.restitution.eps, scale.density, s.diameter);
+        line("critical lengths",
+             fmt::format("{:.4g} m of vortices, {:.4g} m of clusters", l.shear, l.cluster));
+    }
     line("cells", fmt::format("{} x {}{}, {:.3g} particles each, {:.3g} mean free paths long", s.cells[0],
                               s.cells[1], s.dimension == 3 ? fmt::format(" x {}", s.cells[2]) : "",
                               static_cast<double>(n) / count, edge / scale.free_path));

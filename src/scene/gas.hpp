@@ -64,6 +64,8 @@ struct Dsmc {
     double sample_every = 0, sample_start = 0; // s
     GasAxis profile_axis = GasAxis::x;
     std::int64_t profile_bins = 0; // 0: the cells along it
+    double structure_every = 0;    // s; 0: never
+    double cluster_reach = 1.2;
 };
 
 // Hard particles of another size or mass beside those of the gas.
@@ -91,6 +93,8 @@ struct Edmd {
     double sample_every = 0, sample_start = 0; // s
     GasAxis profile_axis = GasAxis::x;
     std::int64_t profile_bins = 20;
+    double structure_every = 0; // s; 0: never
+    double cluster_reach = 1.2;
 };
 
 } // namespace sandlane::scene

@@ -116,7 +116,13 @@ const Table<Dsmc>& dsmc_table() {
                     "frames before it are left out")
             .choice("profile_axis", &Dsmc::profile_axis, {"x", "y", "z"},
                     "axis across the bins of profile.csv")
-            .integer("profile_bins", &Dsmc::profile_bins, between(0, 100000), "0: the cells along it");
+            .integer("profile_bins", &Dsmc::profile_bins, between(0, 100000), "0: the cells along it")
+            .number("structure_every", &Dsmc::structure_every, Unit::time, any,
+                    "frames of structure.csv, clusters.csv and cluster_sizes.csv: spectra of density and "
+                    "transverse momentum, clusters; 0 or negative: none")
+            .number("cluster_reach", &Dsmc::cluster_reach, Unit::none, between(1, 100),
+                    "particles closer than this times the sum of their radii are of one cluster; a simulated "
+                    "one is as large as all that it stands for");
     return table;
 }
 
@@ -174,7 +180,13 @@ const Table<Edmd>& edmd_table() {
                     "frames before it are left out")
             .choice("profile_axis", &Edmd::profile_axis, {"x", "y", "z"},
                     "axis across the bins of profile.csv")
-            .integer("profile_bins", &Edmd::profile_bins, between(1, 100000), "of profile.csv");
+            .integer("profile_bins", &Edmd::profile_bins, between(1, 100000), "of profile.csv")
+            .number("structure_every", &Edmd::structure_every, Unit::time, any,
+                    "frames of structure.csv, clusters.csv and cluster_sizes.csv: spectra of density and "
+                    "transverse momentum, clusters; 0 or negative: none")
+            .number("cluster_reach", &Edmd::cluster_reach, Unit::none, between(1, 100),
+                    "particles closer than this times the sum of their radii are of one cluster; a simulated "
+                    "one is as large as all that it stands for");
     return table;
 }
 

@@ -66,6 +66,23 @@ TEST_F(Gas, AdaptiveRunsEndAtTheirTime) {
     EXPECT_NEAR(std::stod(last), 20, 0.1); // the longest step
 }
 
+TEST_F(Gas, StructureOnDemand) {
+    write("gas.toml", gas_scene);
+    const std::vector<std::string> set = {"--set", "dsmc.structure_every=2"};
+    run_well({"run", "gas.toml", "--quiet", "--out", "whole", set[0], set[1]});
+    const std::string clusters = read("whole/clusters.csv");
+    EXPECT_EQ(std::count(clusters.begin(), clusters.end(), '\n'), 12); // header, start, ten
+    EXPECT_SAYS(read("whole/structure.csv"), "k[1/m],structure_factor[1]");
+    EXPECT_SAYS(read("whole/cluster_sizes.csv"), "clusters[1]");
+    const std::string report = read("whole/report.html");
+    for (const char* caption : {"Structure factor S(k)", "largest cluster", "Mean density along x", "<svg"})
+        EXPECT_SAYS(report, caption);
+    run_well({"run", "gas.toml", "--quiet", "--out", "part", "--steps", "77", set[0], set[1]});
+    run_well({"run", "--resume", latest_checkpoint("part"), "--quiet"});
+    for (const char* file : {"clusters.csv", "structure.csv", "cluster_sizes.csv"})
+        EXPECT_EQ(read(std::string("part/") + file), read(std::string("whole/") + file)) << file;
+}
+
 TEST_F(Gas, PicturesAndTrajectoriesOnDemand) {
     write("gas.toml", gas_scene);
     run_well({"run", "gas.toml", "--quiet", "--set", "output.picture_every=10", "--set",
