@@ -117,15 +117,21 @@ SANDLANE_INLINE std::int32_t count_candidates(const GasCollisionView& view, cons
         R majorant = select(n > R(1.0), R(view.margin) * sqrt(square), R(0.0)), crowding(0.0);
         R factor(1.0);
         if constexpr (mixed) {
-            const R free = R(1.0) - min(load<Arch>(upper), R(laws::freezing_fraction[dimension - 2]));
-            crowding = load<Arch>(lower) / free;
+            const R others = (n - R(2.0)) / max(n, R(2.0));
+            const R free =
+                R(1.0) - min(load<Arch>(upper) * others, R(laws::freezing_fraction[dimension - 2]));
+            crowding = load<Arch>(lower) * others / free;
             majorant =
                 majorant * laws::contact_of_pair(dimension, R(view.mixture->largest_contact) * crowding);
             factor = R(1.0) / free;
         } else if (view.packing > 0) {
-            factor = laws::contact_correlation(dimension, R(view.packing) * n);
+            factor = laws::contact_correlation(dimension, R(view.packing) * (n - R(2.0)));
         }
-        const R mean = R(view.rate) * (n * (n - R(1.0))) * majorant * factor;
+        R mean = R(view.rate) * (n * (n - R(1.0))) * majorant * factor;
+        if (view.maxwell > 0) { // no speed is below zero times the random number, so that all collide
+            mean = select(n > R(1.0), R(view.maxwell) * n, R(0.0));
+            majorant = R(0.0);
+        }
         const W numbers = W::load(cell);
         const PhiloxLanes<Arch> draw = random(numbers);
         const R wanted = floor(mean + unit_number(draw.w[0], draw.w[1]));
@@ -326,6 +332,7 @@ GasCollisions collide_gas(const GasCollisionView& given) {
         result.collisions += chosen.accepted;
         active = chosen.left;
     }
+    if (view.maxwell > 0) result.violations = 0;
     return result;
 }
 

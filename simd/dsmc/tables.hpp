@@ -80,7 +80,14 @@ using GasSort = std::int32_t (*)(const SortView&);
 
 // ---- collisions
 
-enum class GasScheme { no_time_counter, direction_first, nanbu_babovsky, majorant_frequency, bernoulli };
+enum class GasScheme {
+    no_time_counter,
+    direction_first,
+    nanbu_babovsky,
+    majorant_frequency,
+    bernoulli,
+    maxwell
+};
 
 // What became of a candidate, for those who compare runs.
 struct GasDecision {
@@ -102,8 +109,10 @@ struct GasCollisionView {
     GasScheme scheme;
     // F S dt/(2 V): mean number of candidates = rate N (N - 1) g_max; S = pi s^2 or 2 s, the largest one.
     double rate;
-    double margin; // of the majorant over the diagonal of the extent of the velocities
-    // Enskog: packing fraction that one particle makes in its cell; 0: dilute.
+    double maxwell; // candidates per particle, all of which collide; 0: as `rate` says
+    double margin;  // of the majorant over the diagonal of the extent of the velocities
+    // Enskog: packing fraction that one particle makes in its cell; 0: dilute. A pair sees that of the other
+    // N - 2: their mean is that of the gas, as the mean of N (N - 1) is its density squared.
     double packing;
     laws::Restitution restitution;
     // Rough particles: eps_t, m_t/m_eff = q/(1 + q), radius, q, and friction (0: none) that bounds eps_t.

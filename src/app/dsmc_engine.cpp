@@ -120,6 +120,8 @@ std::vector<analysis::LogColumn> DsmcEngine::log_columns() const {
         {{"a2", "1"}, {"energy", "J"}, {"wall_energy", "J"}, {"velocity_x", "m/s"}, {"velocity_y", "m/s"}});
     if (scene_->domain.dimension == 3) columns.push_back({"velocity_z", "m/s"});
     if (plan_->setup.rough) columns.push_back({"spin_temperature", "J"});
+    if (plan_->setup.shear != 0)
+        columns.push_back({"shear_stress", plan_->setup.dimension == 3 ? "Pa" : "N/m"});
     if (theory_) {
         columns.push_back({"theory_temperature", "J"});
         add_kinds(columns, "theory_temperature", kinds());
@@ -151,6 +153,7 @@ std::vector<double> DsmcEngine::log_row() {
     row.insert(row.end(), {o.fourth, o.energy, simulation_.wall_energy(), o.drift[0], o.drift[1]});
     if (scene_->domain.dimension == 3) row.push_back(o.drift[2]);
     if (plan_->setup.rough) row.push_back(o.spin_temperature);
+    if (plan_->setup.shear != 0) row.push_back(o.shear_stress);
     if (theory_) add_theory(row);
     // Two particles in each.
     row.push_back(2 * static_cast<double>(counts.collisions) / static_cast<double>(size()));
@@ -211,12 +214,19 @@ analysis::GasSamples DsmcEngine::make_samples() const {
     return {dsmc::frame_of(plan_->setup), static_cast<int>(axis), static_cast<std::size_t>(bins)};
 }
 
+std::vector<dsmc::Particle> DsmcEngine::thermal_particles() const {
+    std::vector<dsmc::Particle> all = simulation_.particles();
+    if (plan_->setup.shear != 0)
+        for (dsmc::Particle& p : all) p.velocity[0] -= plan_->setup.flow(p.place[1]);
+    return all;
+}
+
 void DsmcEngine::sample(analysis::GasSamples& samples) const {
     const dsmc::Setup& s = plan_->setup;
-    if (kinds() == 1) return samples.add(simulation_.particles());
+    if (kinds() == 1) return samples.add(thermal_particles());
     std::vector<double> ratio;
     for (std::size_t k = 0; k < kinds(); ++k) ratio.push_back(s.kind(k).mass / s.mass);
-    samples.add(simulation_.particles(), [&](const dsmc::Particle& p) { return ratio[p.kind]; });
+    samples.add(thermal_particles(), [&](const dsmc::Particle& p) { return ratio[p.kind]; });
 }
 
 analysis::GasStructure DsmcEngine::make_structure() const {
@@ -234,7 +244,7 @@ std::vector<analysis::StructureParticle> DsmcEngine::structure_particles() const
     std::vector<analysis::StructureParticle> all;
     const dsmc::Setup& s = plan_->setup;
     const double larger = std::pow(s.weight, 1.0 / s.dimension);
-    for (const dsmc::Particle& p : simulation_.particles()) {
+    for (const dsmc::Particle& p : thermal_particles()) {
         const dsmc::Kind kind = s.kind(p.kind);
         all.push_back({p.place, p.velocity, kind.mass, 0.5 * larger * kind.diameter});
     }

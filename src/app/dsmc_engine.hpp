@@ -65,6 +65,7 @@ public:
 
 private:
     [[nodiscard]] std::size_t kinds() const { return plan_->setup.kinds(); }
+    [[nodiscard]] std::vector<dsmc::Particle> thermal_particles() const; // without the flow of a sheared gas
     void add_theory(std::vector<double>& row) const;
     [[nodiscard]] bool adaptive() const { return plan_->setup.adaptive; }
 

@@ -45,6 +45,7 @@ Setup setup_of(const scene::Scene& scene) {
         const auto n = static_cast<std::size_t>(side.side);
         s.walls.side[n / 2][n % 2] = side_of(side, gas.mass);
     }
+    s.shear = scene.domain.shear_rate;
     const Vec& gravity = scene.domain.gravity;
     s.gravity[0] = gravity.x;
     s.gravity[1] = gravity.y;
@@ -162,6 +163,7 @@ void say_what_is_skipped(Plan& plan) {
     }
     skip(!walls, "walls: all sides are periodic");
     skip(!falls, "gravity");
+    skip(s.shear == 0, "shear of the periodic images");
 }
 
 } // namespace
@@ -190,7 +192,9 @@ Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& thr
         plan.threads = std::max(1, tiling.tiles());
         plan.chosen.push_back("fewer threads than CPUs: there are not more tiles of cells");
     }
-    if (s.scheme != simd::GasScheme::no_time_counter)
+    if (s.scheme == simd::GasScheme::maxwell)
+        plan.chosen.push_back("collisions at the rate of the start, whatever the relative speed");
+    else if (s.scheme != simd::GasScheme::no_time_counter)
         plan.chosen.push_back("collisions without vector kernels: this scheme is an oracle");
     plan.warnings = warnings(s, n, scene.gas.temperature);
     for (const auto& axis : s.walls.side)

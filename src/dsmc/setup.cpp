@@ -137,8 +137,10 @@ std::vector<Particle> maxwellian(const Setup& setup, std::uint32_t count, double
         }
     const double wanted = static_cast<double>(count) * static_cast<double>(d) * temperature / setup.mass;
     const double scale = square > 0 ? std::sqrt(wanted / square) : std::sqrt(temperature / setup.mass);
-    for (Particle& p : particles)
+    for (Particle& p : particles) {
         for (std::size_t c = 0; c < d; ++c) p.velocity[c] *= scale;
+        if (setup.shear != 0) p.velocity[0] += setup.flow(p.place[1]);
+    }
     return particles;
 }
 

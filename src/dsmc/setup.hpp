@@ -29,6 +29,7 @@ struct Setup {
     std::int32_t cells[3] = {1, 1, 1};
     simd::GasWalls walls; // sides; box, radius and inertia are filled in
     double gravity[3] = {0, 0, 0};
+    double shear = 0;                   // d u_x/d y of a flow without ends (Lees and Edwards), 1/s
     double mass = 1, diameter = 1;      // of the first kind, kg, m
     std::vector<Kind> others;           // kinds 1 and so on
     std::vector<PairRestitution> pairs; // that are not as the gas
@@ -45,6 +46,8 @@ struct Setup {
     double margin = 1.1;   // of the majorant
     std::uint64_t seed = 1;
 
+    // Of the flow at a height, m/s.
+    [[nodiscard]] double flow(double y) const { return shear * (y - 0.5 * (lower[1] + upper[1])); }
     [[nodiscard]] double volume() const; // m^3, m^2 in the plane
     [[nodiscard]] double cell_volume() const;
     [[nodiscard]] double cross_section() const;   // pi s^2, 2 s of the largest kind

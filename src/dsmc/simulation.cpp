@@ -78,6 +78,7 @@ Simulation::Simulation(const Setup& setup, const std::vector<Particle>& particle
     : setup_(setup), kernels_(&simd::dsmc_kernels(isa)), threads_(threads), size_(particles.size()) {
     setup_.walls.dimension = setup.dimension;
     setup_.walls.inertia = setup.inertia;
+    setup_.walls.shear = setup.shear;
     for (std::size_t k = 0; k < setup.kinds(); ++k) {
         const Kind kind = setup.kind(k);
         simd::GasWallKind& wall = setup_.walls.kind[k];
@@ -357,8 +358,14 @@ void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) {
                              static_cast<std::vector<simd::GasDecision>*>(to)->push_back(decision);
                          },
                          &heard_[static_cast<std::size_t>(t)]};
-    const simd::DsmcKernels& kernels =
-        setup_.scheme == simd::GasScheme::no_time_counter ? *kernels_ : simd::dsmc_kernels(simd::Isa::scalar);
+    const bool maxwell = setup_.scheme == simd::GasScheme::maxwell;
+    if (maxwell) {
+        const double start =
+            setup_.mass * first_square_sum_ / (setup_.dimension * static_cast<double>(size_));
+        view.maxwell = 0.5 * dt_ * scales(setup_, size_, start).collision_rate;
+    }
+    const bool vector = maxwell || setup_.scheme == simd::GasScheme::no_time_counter;
+    const simd::DsmcKernels& kernels = vector ? *kernels_ : simd::dsmc_kernels(simd::Isa::scalar);
     result.collisions = kernels.collide[setup_.dimension - 2][setup_.rough ? 1 : 0][mixed ? 1 : 0](view);
 }
 

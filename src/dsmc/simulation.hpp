@@ -24,7 +24,7 @@ struct Decision {
     simd::GasDecision of;
 };
 
-// Sums over all particles, in the order of their ids.
+// Sums over all particles, in the order of their ids, without the flow of a sheared gas.
 struct Observables {
     double temperature = 0;           // m <(v - u)^2>/d, J
     double spin_temperature = 0;      // J <w^2> per component, J; 0: smooth
@@ -33,6 +33,7 @@ struct Observables {
     std::array<double, 3> drift{};    // u, m/s
     double directions[3] = {0, 0, 0}; // m <(v - u)^2> of each component, J
     std::vector<double> of_kind;      // temperature of each kind, J
+    double shear_stress = 0;          // -p_xy of the flights, Pa; N/m in the plane
 };
 
 class Simulation {

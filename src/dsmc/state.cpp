@@ -46,7 +46,9 @@ std::vector<Particle> Simulation::particles() const {
 
 Observables Simulation::observe() const {
     Observables o;
-    const std::vector<Particle> all = particles();
+    std::vector<Particle> all = particles();
+    if (setup_.shear != 0) // velocities relative to the flow
+        for (Particle& p : all) p.velocity[0] -= setup_.flow(p.place[1]);
     if (all.empty()) return o;
     const auto n = static_cast<double>(all.size());
     const auto d = static_cast<std::size_t>(setup_.dimension);
@@ -73,6 +75,7 @@ Observables Simulation::observe() const {
             square += mass[p.kind] * v * v;
             squares += mass[p.kind] * p.velocity[c] * p.velocity[c];
         }
+        o.shear_stress -= mass[p.kind] * (p.velocity[0] - o.drift[0]) * (p.velocity[1] - o.drift[1]);
         fourth += square * square / n;
         o.of_kind[p.kind] += square / dimension;
         count[p.kind] += 1;
@@ -83,6 +86,7 @@ Observables Simulation::observe() const {
     if (o.temperature > 0)
         o.fourth = fourth / (dimension * (dimension + 2) * o.temperature * o.temperature) - 1;
     if (setup_.rough) o.spin_temperature = spins / n / (setup_.dimension == 3 ? 3 : 1);
+    o.shear_stress *= setup_.weight / setup_.volume();
     o.energy = 0.5 * setup_.weight * (squares + (setup_.rough ? spins : 0));
     return o;
 }
@@ -106,6 +110,7 @@ Hash128 Simulation::state_hash() const {
 std::string Simulation::frame() const {
     ByteWriter out;
     out.put(setup_.dt);
+    out.put(setup_.shear);
     for (int d = 0; d < setup_.dimension; ++d) {
         out.put(setup_.cells[d]);
         out.put(setup_.lower[d]);

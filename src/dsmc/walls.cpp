@@ -157,6 +157,15 @@ void count_image(double* velocity, int axis, int step) {
 
 void settle(const GasFlightView& view, const Particle& p, double now) {
     const GasWalls& walls = *view.walls;
+    if (walls.shear != 0) { // a box above or below has moved along x, and moves
+        const double height = walls.upper[1] - walls.lower[1];
+        const double turns = std::floor((p.place[1] - walls.lower[1]) / height);
+        if (turns != 0) {
+            const double speed = walls.shear * height;
+            p.place[0] -= turns * std::fmod(speed * now, walls.upper[0] - walls.lower[0]);
+            p.velocity[0] -= turns * speed;
+        }
+    }
     for (int d = 0; d < walls.dimension; ++d) {
         const double lower = walls.lower[d], upper = walls.upper[d], period = upper - lower;
         if (walls.periodic[d]) {

@@ -30,6 +30,7 @@ struct GasWalls {
     bool periodic[3] = {true, true, true};
     double lower[3], upper[3];
     int dimension = 3;
+    double shear = 0;     // Lees-Edwards: d u_x/d y, the boxes above and below move along x
     double inertia = 0.4; // rough particles: J = inertia m radius^2
     GasWallKind kind[most_kinds];
     double time[2] = {0, 0}; // at the start of the first and of the second flight, s

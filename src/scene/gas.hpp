@@ -50,7 +50,8 @@ enum class CollisionScheme {
     direction_first,
     nanbu_babovsky,
     majorant_frequency,
-    bernoulli
+    bernoulli,
+    maxwell
 };
 
 struct Dsmc {

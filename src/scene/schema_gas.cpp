@@ -97,10 +97,13 @@ const Table<Dsmc>& dsmc_table() {
                  "cells; 0: as many as are at most a third of the mean free path long, but not fewer than 10 "
                  "particles each; 1 in directions in which the gas is uniform",
                  false, read_cells, write_cells, "[columns, rows, layers]"})
-            .choice(
-                "scheme", &Dsmc::scheme,
-                {"no-time-counter", "direction-first", "nanbu-babovsky", "majorant-frequency", "bernoulli"},
-                "how pairs are chosen; all but the first are oracles without vector kernels")
+            .choice("scheme", &Dsmc::scheme,
+                    {"no-time-counter", "direction-first", "nanbu-babovsky", "majorant-frequency",
+                     "bernoulli", "maxwell"},
+                    "how pairs are chosen. Those after the first are oracles without vector kernels; but "
+                    "\"maxwell\" "
+                    "lets all pairs collide at the rate of the start, whatever their speed: a gas with exact "
+                    "solutions")
             .flag("enskog", &Dsmc::enskog,
                   "more collisions by the pair correlation at contact of the cell's density")
             .number("dt", &Dsmc::dt, Unit::time, not_negative(),

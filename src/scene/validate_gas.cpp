@@ -33,8 +33,27 @@ struct GasValidator {
                        "is {} m",
                        axis.name, length);
         }
-        if (d.shear_rate != 0)
-            reject("domain.shear_rate = {}: is not known to this method; use 0", d.shear_rate);
+    }
+
+    void refuse_shear() const {
+        if (scene.domain.shear_rate != 0)
+            reject("domain.shear_rate = {}: is not known to this method; use 0", scene.domain.shear_rate);
+    }
+    void check_shear() const {
+        const Domain& d = scene.domain;
+        if (d.shear_rate == 0) return;
+        if (!std::isfinite(d.shear_rate)) reject("domain.shear_rate: {} is no number", d.shear_rate);
+        if (!d.periodic[0] || !d.periodic[1])
+            reject(
+                "domain.shear_rate: {} needs periodic = [\"x\", \"y\"]: the flow is along x and its images "
+                "along y",
+                d.shear_rate);
+        if (d.gravity.x != 0 || d.gravity.y != 0)
+            reject("domain.shear_rate: {} and gravity along x or y: a sheared box would fall; leave out one",
+                   d.shear_rate);
+        if (scene.dsmc.adaptive)
+            reject(
+                "dsmc.adaptive: a sheared gas does not cool down; leave out adaptive or domain.shear_rate");
     }
 
     // most: largest packing fraction that the method can do, and why.
@@ -118,6 +137,8 @@ struct GasValidator {
         if (cells > 1e9) reject("dsmc.cells: {:.4g} cells; allowed: up to 1e9", cells);
         if (static_cast<std::int64_t>(d.profile_axis) >= scene.domain.dimension)
             reject("dsmc.profile_axis: a plane has no z axis");
+        if (d.scheme == CollisionScheme::maxwell && !scene.species.empty())
+            reject("dsmc.scheme = \"maxwell\": knows one kind of particles; leave out [[species]]");
         if (d.adaptive && d.heating > 0)
             reject("dsmc.adaptive: a heated gas does not cool down; leave out adaptive or heating");
     }
@@ -197,6 +218,7 @@ struct GasValidator {
 void validate_edmd(const Scene& scene, const std::string& file) {
     const GasValidator v{scene, file};
     v.check_domain();
+    v.refuse_shear();
     v.check_gas(scene.domain.dimension == 3 ? 0.7405 : 0.9069, "the closest packing");
     for (std::size_t n = 0; n < scene.sides.size(); ++n) v.check_side(n);
     v.check_edmd();
@@ -208,6 +230,7 @@ void validate_dsmc(const Scene& scene, const std::string& file) {
     // Beyond freezing there is no fluid that the contact values were made for.
     v.check_gas(laws::freezing_fraction[scene.domain.dimension - 2], "where the fluid freezes");
     for (std::size_t n = 0; n < scene.sides.size(); ++n) v.check_side(n);
+    v.check_shear();
     v.check_mixture(16);
     v.check_dsmc();
 }

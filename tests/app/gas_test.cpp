@@ -96,9 +96,9 @@ TEST_F(Gas, PicturesAndTrajectoriesOnDemand) {
 
 TEST_F(Gas, ComparesBitForBit) {
     write("gas.toml", gas_scene);
-    for (const char* change :
-         {"seed=2", "gas.tangential_restitution=0.3", "gas.model=saturating", "dsmc.adaptive=true",
-          "dsmc.heating=0.01", "dsmc.scheme=direction-first", "domain.gravity=[0,0,-0.1]"}) {
+    for (const char* change : {"seed=2", "gas.tangential_restitution=0.3", "gas.model=saturating",
+                               "dsmc.adaptive=true", "dsmc.heating=0.01", "dsmc.scheme=direction-first",
+                               "dsmc.scheme=maxwell", "domain.shear_rate=0.1", "domain.gravity=[0,0,-0.1]"}) {
         const Outcome o = run_well({"compare", "gas.toml", "--steps", "20", "--set", change});
         EXPECT_SAYS(o.out, "identical, bit for bit");
         EXPECT_SAYS(o.out, "velocity z");
@@ -188,6 +188,10 @@ TEST_F(Gas, Refuses) {
         {"upper = [8, 8, 8]", "upper = [8, 8, 0]", {"domain", "above lower", "z"}},
         {"dt = 0.1", "dt = -0.1", {"dsmc.dt", "-0.1"}},
         {"restitution = 0.9", "friction = 0.9", {"gas.friction", "smooth"}},
+        {"periodic = [\"x\", \"y\"]",
+         "periodic = [\"x\"]\nshear_rate = 1",
+         {"domain.shear_rate", "needs periodic"}},
+
         {"restitution = 0.9", "model = \"viscoelastic\"", {"gas.dissipation", "needs it"}},
         {"duration = 20", "duration = 20\nadaptive = true\nheating = 1", {"dsmc.adaptive", "heat"}},
         {"temperature = 1\n\n[dsmc]",

@@ -73,6 +73,12 @@ std::vector<Case> cases() {
     s.walls.side[1][1].eps_t = 0.2;
     s.gravity[1] = -0.1;
     add("rough_mixture", s, 4000);
+    s = test::gas(3, 0.9, 6000, 12);
+    s.shear = 0.3;
+    add("shear", s, 6000);
+    s = test::gas(2, 0.9, 5000, 30);
+    s.scheme = simd::GasScheme::maxwell;
+    add("maxwell", s, 5000);
     s = test::gas(3, 0.9, 900, 30); // hardly any particles
     s.cells[1] = 1;
     s.dt = 20; // far beyond a tile

@@ -79,7 +79,7 @@ struct Crowding {
 inline Crowding crowding(int dimension, const GasCollisionView& view, std::int32_t begin, std::int32_t n) {
     Crowding c;
     if (view.mixture == nullptr) {
-        if (view.packing > 0) c.factor = laws::contact_correlation(dimension, view.packing * n);
+        if (view.packing > 0) c.factor = laws::contact_correlation(dimension, view.packing * (n - 2));
         return c;
     }
     double lower = 0, upper = 0;
@@ -87,8 +87,9 @@ inline Crowding crowding(int dimension, const GasCollisionView& view, std::int32
         lower += view.mixture->lower_moment[kind_of(view, i)];
         upper += view.mixture->upper_moment[kind_of(view, i)];
     }
-    const double free = 1 - min(upper, laws::freezing_fraction[dimension - 2]);
-    c.h = lower / free;
+    const double others = (n - 2.0) / n;
+    const double free = 1 - min(upper * others, laws::freezing_fraction[dimension - 2]);
+    c.h = lower * others / free;
     c.most = laws::contact_of_pair(dimension, view.mixture->largest_contact * c.h);
     c.factor = 1 / free;
     return c;

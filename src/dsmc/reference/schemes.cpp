@@ -195,6 +195,7 @@ template <int dimension, bool rough> GasCollisions all_cells(const GasCollisionV
             bernoulli<dimension, rough>(view, cell, result);
             break;
         case GasScheme::no_time_counter:
+        case GasScheme::maxwell:
             break;
         }
     }
