@@ -196,12 +196,8 @@ def gases(options):
         for record in measure.program("bench_dsmc", arguments, "gases"):
             found.setdefault(measure.short(record["name"]), []).append(record)
 
-    def ratio(a, b):
-        """Median over rounds of the ratio of what ran in the same round."""
-        if a not in found or b not in found:
-            return float("nan")
-        pairs = sorted(x["particle_steps_per_second"] / y["particle_steps_per_second"] for x, y in zip(found[a], found[b]))
-        return pairs[len(pairs) // 2]
+    def ratio(a, b, digits=">12.2f"):
+        return format(measure.ratio(found[a], found[b]), digits) if a in found and b in found else f"{'-':>12}"
 
     print(f"{'case':<44}{'steps/s':>10}{'spread':>8}{'over scalar':>12}{'of 1 thread':>12}{'of bound':>9}{'B/particle':>11}"
           f"{'collisions':>11}")
@@ -211,12 +207,12 @@ def gases(options):
         middle = measure.median(records)
         isa, threads = name.split("/")[3], name.split("/")[4]
         print(f"{name:<44}{middle / 1e6:>8.1f} M{(max(values) - min(values)) / middle:>7.0%}"
-              f"{ratio(name, name.replace(isa, 'scalar')):>12.2f}{ratio(name, name.replace(threads, 'threads=1')):>12.2f}"
+              f"{ratio(name, name.replace(isa, 'scalar'))}{ratio(name, name.replace(threads, 'threads=1'))}"
               f"{measure.median(records, 'of_bound'):>9.0%}{measure.median(records, 'bytes_per_particle'):>11.0f}"
               f"{measure.median(records, 'collisions'):>11.4f}")
     print(f"\n{'not skipped':<32}{'of the plain case':>18}")
     for what, name in extras:
-        print(f"{what:<32}{ratio(gas(name), gas('spheres')):>18.2f}")
+        print(f"{what:<32}{ratio(gas(name), gas('spheres'), '>18.2f')}")
 
 
 def stability(options):

@@ -147,7 +147,7 @@ def contact(dimension, phi):
 def state(program):
     pressure, rates = {}, {}
     for dimension, name, fractions in ((2, "discs", (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.65)),
-                                       (3, "spheres", (0.05, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.49))):
+                                       (3, "spheres", (0.05, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45))):
         z, omega = [], []
         for phi in fractions:
             volume = math.pi / (6 if dimension == 3 else 4)

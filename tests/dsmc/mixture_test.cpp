@@ -31,7 +31,7 @@ dsmc::Simulation simulate(const dsmc::Setup& s, std::uint32_t n) {
 // Collisions of each pair of kinds in an elastic gas of one temperature: n_i n_j g_ij S_ij <g_ij>, dilute and
 // dense, by every scheme but that of first order in dt. 4 sigma, and 1 % for the fluctuations of the local
 // density of the dense gas.
-TEST(Mixture, RatesOfPairs) {
+TEST(Mixture, RatesOfPairsSlow) {
     for (const int d : {2, 3})
         for (const bool dense : {false, true})
             for (const auto scheme : {simd::GasScheme::no_time_counter, simd::GasScheme::direction_first,
