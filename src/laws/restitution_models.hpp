@@ -40,8 +40,8 @@ template <class R> SANDLANE_INLINE R restitution(const Restitution& law, const R
     return R(1.0) - R(1.0 - law.eps) * part;
 }
 
-// The same where each pair of kinds has a coefficient of its own, the model in common: eps, or the root of the
-// dissipation of viscoelastic spheres.
+// The same where each pair of kinds has a coefficient of its own, the model in common: eps, or the root of
+// the dissipation of viscoelastic spheres.
 template <class R>
 SANDLANE_INLINE R restitution_of_pair(const Restitution& law, const R& coefficient, const R& g) {
     if (law.model == Restitution::Model::constant) return coefficient;

@@ -65,7 +65,7 @@ TEST(Exact, BobylevKrookWuSlow) {
             gas.run(20 * until - gas.step());
             const double k = 1 - (1 - d / (d + 2.0)) * std::exp(-(d == 3 ? 1.0 / 6 : 2.0 / 15) * until);
             const auto [four, six] = moments(gas);
-            const double sigma = std::sqrt(8.0 / (d * (d + 2) * n));
+            const double sigma = std::sqrt(8.0 / (d * (d + 2)) / n);
             EXPECT_NEAR(four, k * (2 - k), 4 * sigma + 0.002) << d << " " << until;
             EXPECT_NEAR(six, k * k * (3 - 2 * k), 12 * sigma + 0.004) << d << " " << until;
         }
