@@ -24,11 +24,11 @@ struct Case {
     dsmc::Setup setup;
 };
 
-// Ten particles per cell; cells of 0.55 mean free paths as in the collisional benchmark of SPARTA, in space.
-dsmc::Setup hard_spheres(std::uint32_t particles, int dimension = 3) {
+// Cells of 0.55 mean free paths; ten particles in each as in the collisional benchmark of SPARTA, in space.
+dsmc::Setup hard_spheres(std::uint32_t particles, int dimension = 3, double per_cell = 10) {
     dsmc::Setup s;
     s.dimension = dimension;
-    const double cells = dimension == 3 ? std::cbrt(particles / 10.0) : std::sqrt(particles / 10.0);
+    const double cells = dimension == 3 ? std::cbrt(particles / per_cell) : std::sqrt(particles / per_cell);
     const auto count = static_cast<std::int32_t>(std::lround(cells));
     for (int d = 0; d < dimension; ++d) {
         s.cells[d] = count;
@@ -117,6 +117,12 @@ void add_all() {
         s = hard_spheres(n);
         s.kicks = 1e-9;
         add("spheres+kicks", n, s);
+        s = hard_spheres(n);
+        s.others = {{1, 1, 0.5}}; // two kinds that are equal
+        add("spheres+kinds", n, s);
+        for (const int per_cell : {30, 100, 1000, 10000})
+            if (n >= 10U * static_cast<unsigned>(per_cell))
+                add(fmt::format("spheres+per_cell={}", per_cell), n, hard_spheres(n, 3, per_cell));
     }
 }
 

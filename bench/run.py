@@ -176,6 +176,45 @@ def events(options):
               f"{measure.median(records, 'of_chase_bound'):>9.0%}")
 
 
+def gases(options):
+    """Direct simulation Monte Carlo: rates against the bound of bandwidth, and what physics costs that a scene does without."""
+    isas, _, cpus = measure.info()
+    best = isas[-1]
+
+    def gas(name, n=100000, isa=best, threads=1):
+        return f"dsmc/{name}/N={n}/{isa}/threads={threads}"
+
+    extras = [("gravity", "spheres+gravity"), ("reflecting walls", "spheres+walls"),
+              ("restitution by impact speed", "spheres+viscoelastic"), ("pair correlation", "spheres+enskog"),
+              ("spins", "spheres+rough"), ("thermostat", "spheres+kicks"), ("kinds of particles", "spheres+kinds")]
+    rates = [gas("spheres", n, isa, t) for n in options.particles for isa in isas for t in range(1, min(2, cpus) + 1)]
+    cells = [gas(f"spheres+per_cell={n}") for n in (30, 100, 1000, 10000)]
+    names = [*rates, gas("discs"), *(gas(name) for _, name in extras), *cells]
+    found = {}
+    for _ in range(options.rounds):  # all in turn, so that a slow spell meets all alike
+        arguments = [f"--benchmark_filter=^({'|'.join(n.replace('+', '.') for n in names)})/", f"--benchmark_min_time={options.seconds}"]
+        for record in measure.program("bench_dsmc", arguments, "gases"):
+            found.setdefault(measure.short(record["name"]), []).append(record)
+
+    def ratio(a, b, digits=">12.2f"):
+        return format(measure.ratio(found[a], found[b]), digits) if a in found and b in found else f"{'-':>12}"
+
+    print(f"{'case':<44}{'steps/s':>10}{'spread':>8}{'over scalar':>12}{'of 1 thread':>12}{'of bound':>9}{'B/particle':>11}"
+          f"{'collisions':>11}")
+    for name in (n for n in names if n in found):
+        records = found[name]
+        values = [r["particle_steps_per_second"] for r in records]
+        middle = measure.median(records)
+        isa, threads = name.split("/")[3], name.split("/")[4]
+        print(f"{name:<44}{middle / 1e6:>8.1f} M{(max(values) - min(values)) / middle:>7.0%}"
+              f"{ratio(name, name.replace(isa, 'scalar'))}{ratio(name, name.replace(threads, 'threads=1'))}"
+              f"{measure.median(records, 'of_bound'):>9.0%}{measure.median(records, 'bytes_per_particle'):>11.0f}"
+              f"{measure.median(records, 'collisions'):>11.4f}")
+    print(f"\n{'not skipped':<32}{'of the plain case':>18}")
+    for what, name in extras:
+        print(f"{what:<32}{ratio(gas(name), gas('spheres'), '>18.2f')}")
+
+
 def stability(options):
     return subprocess.run([measure.build / "bench" / "bench_edmd", "--stress", str(options.events)]).returncode
 
@@ -231,6 +270,10 @@ def main():
     sub.add_argument("--filter", default=r"^edmd/.*/avx512", help="regular expression of names")
     sub.add_argument("--rounds", type=int, default=3, help="times that each case runs")
     sub.add_argument("--seconds", type=float, default=0.5, help="least time of one run")
+    sub = command("gases", gases, "direct simulation Monte Carlo: rates, bound of bandwidth, what physics costs")
+    sub.add_argument("--particles", type=int, nargs="+", default=[100000, 1000000], choices=[10000, 100000, 1000000])
+    sub.add_argument("--rounds", type=int, default=3, help="times that all cases run in turn")
+    sub.add_argument("--seconds", type=float, default=0.3, help="least time of one run")
     sub = command("stability", stability, "event-driven dynamics, 1e9 events: no overlap, no drift of the energy (ten minutes)")
     sub.add_argument("--events", type=float, default=1e9, help="number of events")
     sub = command("accuracy", accuracy, "errors of known answers against the time they cost: integrators, steps and laws")

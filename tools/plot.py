@@ -6,7 +6,7 @@ import csv
 import math
 
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 460, 300, 62, 12, 12, 42
-COLOURS = ["#1f5fa8", "#c2452d", "#2c8a4b", "#8051a8", "#b8860b"]
+COLOURS = ["#1f5fa8", "#c2452d", "#2c8a4b", "#8051a8", "#b8860b", "#4f6d7a"]
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("out")

@@ -33,15 +33,45 @@ SANDLANE_INLINE void velocity_extent(const double* velocity, std::int32_t n, dou
     store_extent(high, low, row);
 }
 
+// Of a mixture: numbers of a table at eight places; kinds of particles; number of a pair of kinds.
+template <class Arch> SANDLANE_INLINE Block<Arch> look_up(const double* table, const Words<Arch>& at) {
+    alignas(64) std::uint64_t place[width];
+    alignas(64) double found[width];
+    at.store(place);
+    for (int l = 0; l < width; ++l) found[l] = table[place[l]];
+    return load<Arch>(found);
+}
+template <class Arch> SANDLANE_INLINE Words<Arch> kind_of(const Block<Arch>& word) {
+    return right<60>(words_of(word));
+}
+template <class Arch> SANDLANE_INLINE Words<Arch> pair_of(const Words<Arch>& i, const Words<Arch>& j) {
+    static_assert(most_kinds == 1 << 4);
+    return left<4>(i) + j;
+}
+
+// Sums x_{d-1} and x_d of the diameters in a cell of a mixture.
+template <class Arch>
+SANDLANE_INLINE void add_moments(const GasMixture& mixture, const double* velocity, std::int32_t n,
+                                 double& lower, double& upper) {
+    lower = upper = 0;
+    for (std::int32_t i = 0; i < n; ++i) {
+        std::uint64_t word;
+        std::memcpy(&word, velocity + std::ptrdiff_t{i} * gas_row + 3, sizeof word);
+        lower += mixture.lower_moment[word >> 60];
+        upper += mixture.upper_moment[word >> 60];
+    }
+}
+
 // The cells that still have candidates, and the pairs that were accepted, as lists of numbers; whole numbers
 // and offsets as words.
 struct CandidateLists {
     double *rows, *number, *majorant, *candidates; // rows: first row, and number of rows in the upper half
     double *first, *second, *cell;                 // byte offsets of the velocities; number of the cell
+    double* crowding;                              // of a mixture: h of laws::contact_of_pair
 
     SANDLANE_INLINE explicit CandidateLists(const GasCollisionView& view)
         : rows(view.list[0]), number(view.list[1]), majorant(view.list[2]), candidates(view.list[3]),
-          first(view.list[4]), second(view.list[5]), cell(view.list[6]) {}
+          first(view.list[4]), second(view.list[5]), cell(view.list[6]), crowding(view.list[7]) {}
 };
 template <class Arch> SANDLANE_INLINE Words<Arch> load_words(const double* from) {
     return words_of(load<Arch>(from));
@@ -51,7 +81,7 @@ template <class Arch> SANDLANE_INLINE void append(const Words<Arch>& words, unsi
 }
 
 // Number of candidates of every cell; fills the list of the cells that have any and returns its length.
-template <class Arch, int dimension>
+template <class Arch, int dimension, bool mixed>
 SANDLANE_INLINE std::int32_t count_candidates(const GasCollisionView& view, const Philox& random,
                                               const CandidateLists& lists, GasCollisions& result) {
     using R = Block<Arch>;
@@ -59,7 +89,7 @@ SANDLANE_INLINE std::int32_t count_candidates(const GasCollisionView& view, cons
     const double* velocity = view.rows.velocity;
     std::int32_t active = 0;
     for (std::int32_t first = 0; first < view.cells; first += width) {
-        alignas(64) double size[width], extents[width * gas_row];
+        alignas(64) double size[width], extents[width * gas_row], lower[width] = {}, upper[width] = {};
         alignas(64) std::uint64_t cell[width], rows[width];
         const std::int32_t end = view.cells - first < width ? view.cells - first : width;
         bool pairs = false;
@@ -74,15 +104,34 @@ SANDLANE_INLINE std::int32_t count_candidates(const GasCollisionView& view, cons
             size[l] = n;
             rows[l] = static_cast<std::uint64_t>(begin) | static_cast<std::uint64_t>(n) << 32;
             velocity_extent<Arch>(velocity + std::ptrdiff_t{begin} * gas_row, n, extents + l * gas_row);
+            if constexpr (mixed)
+                if (view.mixture->dense)
+                    add_moments<Arch>(*view.mixture, velocity + std::ptrdiff_t{begin} * gas_row, n, lower[l],
+                                      upper[l]);
         }
         if (!pairs) continue;
         R extent[gas_row];
         Rows<Arch, gas_row>::load(extents, extent);
         const R square = extent[0] * extent[0] + extent[1] * extent[1] + extent[2] * extent[2];
         const R n = load<Arch>(size);
-        const R majorant = select(n > R(1.0), R(view.margin) * sqrt(square), R(0.0));
-        R mean = R(view.rate) * (n * (n - R(1.0))) * majorant;
-        if (view.packing > 0) mean = mean * laws::contact_correlation(dimension, R(view.packing) * n);
+        R majorant = select(n > R(1.0), R(view.margin) * sqrt(square), R(0.0)), crowding(0.0);
+        R factor(1.0);
+        if constexpr (mixed) {
+            const R others = (n - R(2.0)) / max(n, R(2.0));
+            const R free =
+                R(1.0) - min(load<Arch>(upper) * others, R(laws::freezing_fraction[dimension - 2]));
+            crowding = load<Arch>(lower) * others / free;
+            majorant =
+                majorant * laws::contact_of_pair(dimension, R(view.mixture->largest_contact) * crowding);
+            factor = R(1.0) / free;
+        } else if (view.packing > 0) {
+            factor = laws::contact_correlation(dimension, R(view.packing) * (n - R(2.0)));
+        }
+        R mean = R(view.rate) * (n * (n - R(1.0))) * majorant * factor;
+        if (view.maxwell > 0) { // no speed is below zero times the random number, so that all collide
+            mean = select(n > R(1.0), R(view.maxwell) * n, R(0.0));
+            majorant = R(0.0);
+        }
         const W numbers = W::load(cell);
         const PhiloxLanes<Arch> draw = random(numbers);
         const R wanted = floor(mean + unit_number(draw.w[0], draw.w[1]));
@@ -93,9 +142,28 @@ SANDLANE_INLINE std::int32_t count_candidates(const GasCollisionView& view, cons
         append(numbers, chosen, lists.number + active);
         compress(majorant, chosen, lists.majorant + active);
         compress(wanted, chosen, lists.candidates + active);
+        if constexpr (mixed) compress(crowding, chosen, lists.crowding + active);
         active += __builtin_popcount(chosen);
     }
     return active;
+}
+
+// Says what became of candidate k of the cells of a block.
+template <class Arch>
+SANDLANE_INLINE void tell(const GasCollisionView& view, const std::uint64_t (&offsets)[2][width],
+                          const Words<Arch>& number, std::uint32_t k, unsigned real, unsigned accepted) {
+    alignas(64) std::uint64_t cell[width];
+    number.store(cell);
+    const auto identity = [&](std::uint64_t offset) {
+        std::uint32_t id;
+        std::memcpy(&id, reinterpret_cast<const char*>(view.rows.place + 3) + offset, sizeof id);
+        return id;
+    };
+    for (int l = 0; l < width; ++l)
+        if ((real >> l & 1u) != 0)
+            view.listener.hear(view.listener.to,
+                               {static_cast<std::uint32_t>(cell[l]), k, identity(offsets[0][l]),
+                                identity(offsets[1][l]), (accepted >> l & 1u) != 0});
 }
 
 // Candidate k of the listed cells: appends the accepted pairs to their lists and keeps the cells that have
@@ -103,7 +171,7 @@ SANDLANE_INLINE std::int32_t count_candidates(const GasCollisionView& view, cons
 struct Chosen {
     std::int32_t accepted, left;
 };
-template <class Arch, int dimension>
+template <class Arch, int dimension, bool mixed, bool heard>
 SANDLANE_INLINE Chosen choose_pairs(const GasCollisionView& view, const Philox& random,
                                     const CandidateLists& lists, std::int32_t active, std::uint32_t k,
                                     GasCollisions& result) {
@@ -133,9 +201,17 @@ SANDLANE_INLINE Chosen choose_pairs(const GasCollisionView& view, const Philox& 
         gather_rows(view.rows.velocity, offsets[0], a);
         gather_rows(view.rows.velocity, offsets[1], b);
         const Vector<R> g{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-        const R speed = sqrt(dot(g, g));
+        R speed = sqrt(dot(g, g));
+        R crowding(0.0);
+        if constexpr (mixed) { // times what their kinds collide more or less often
+            crowding = load<Arch>(lists.crowding + at);
+            const W pair = pair_of(kind_of(a[3]), kind_of(b[3]));
+            const R contact = look_up(view.mixture->contact, pair) * crowding;
+            speed = look_up(view.mixture->section, pair) * laws::contact_of_pair(dimension, contact) * speed;
+        }
         const unsigned yes = bits(unit_number(draw.w[2], draw.w[3]) * most < speed) & real;
         result.violations += __builtin_popcount(bits(speed > most) & real);
+        if constexpr (heard) tell(view, offsets, number, k, real, yes);
         append(first, yes, lists.first + chosen.accepted);
         append(second, yes, lists.second + chosen.accepted);
         append(number, yes, lists.cell + chosen.accepted);
@@ -145,13 +221,14 @@ SANDLANE_INLINE Chosen choose_pairs(const GasCollisionView& view, const Philox& 
         append(number, more, lists.number + chosen.left);
         compress(most, more, lists.majorant + chosen.left);
         compress(candidates, more, lists.candidates + chosen.left);
+        if constexpr (mixed) compress(crowding, more, lists.crowding + chosen.left);
         chosen.left += __builtin_popcount(more);
     }
     return chosen;
 }
 
 // Collisions of the accepted pairs from `at` on, up to eight. They share no particle.
-template <class Arch, int dimension, bool rough>
+template <class Arch, int dimension, bool rough, bool mixed>
 SANDLANE_INLINE void collide_pairs(const GasCollisionView& view, const Philox& random,
                                    const CandidateLists& lists, std::int32_t at, std::int32_t lanes) {
     using R = Block<Arch>;
@@ -173,14 +250,29 @@ SANDLANE_INLINE void collide_pairs(const GasCollisionView& view, const Philox& r
     } else {
         e = laws::direction_in_plane(g, speed, u1);
     }
-    const R normal = dot(g, e), eps = laws::restitution(view.restitution, -normal);
+    const R normal = dot(g, e);
+    R eps, share_a(0.5), share_b(0.5), radius_a(view.radius), radius_b(view.radius);
+    if constexpr (mixed) {
+        const Words<Arch> i = kind_of(a[3]), j = kind_of(b[3]), pair = pair_of(i, j);
+        eps = laws::restitution_of_pair(view.restitution, look_up(view.mixture->coefficient, pair), -normal);
+        share_a = look_up(view.mixture->share, pair);
+        share_b = look_up(view.mixture->share, pair_of(j, i));
+        radius_a = look_up(view.mixture->radius, i);
+        radius_b = look_up(view.mixture->radius, j);
+    } else {
+        eps = laws::restitution(view.restitution, -normal);
+    }
     Vector<R> push;
     if constexpr (rough) {
         R s[gas_row], t[gas_row];
         gather_rows(view.rows.spin, first, s);
         gather_rows(view.rows.spin, second, t);
-        const R radius(view.radius);
-        const Vector<R> spin{radius * (s[0] + t[0]), radius * (s[1] + t[1]), radius * (s[2] + t[2])};
+        Vector<R> spin;
+        if constexpr (mixed)
+            spin = {radius_a * s[0] + radius_b * t[0], radius_a * s[1] + radius_b * t[1],
+                    radius_a * s[2] + radius_b * t[2]};
+        else
+            spin = {radius_a * (s[0] + t[0]), radius_a * (s[1] + t[1]), radius_a * (s[2] + t[2])};
         const Vector<R> contact = g - cross(spin, e);
         R tangential(view.tangential);
         if (view.friction > 0) {
@@ -190,22 +282,30 @@ SANDLANE_INLINE void collide_pairs(const GasCollisionView& view, const Philox& r
                                                    -along, sqrt(dot(across, across)));
         }
         push = laws::impulse(contact, e, eps, tangential, R(view.mass_ratio));
-        const Vector<R> turn = R(0.5 / (view.inertia * view.radius)) * cross(e, push);
-        s[0] = s[0] - turn.x, s[1] = s[1] - turn.y, s[2] = s[2] - turn.z;
-        t[0] = t[0] - turn.x, t[1] = t[1] - turn.y, t[2] = t[2] - turn.z;
+        const Vector<R> across = cross(e, push);
+        Vector<R> turn_a, turn_b;
+        if constexpr (mixed) {
+            turn_a = (share_a / (R(view.inertia) * radius_a)) * across;
+            turn_b = (share_b / (R(view.inertia) * radius_b)) * across;
+        } else {
+            turn_a = turn_b = R(0.5 / (view.inertia * view.radius)) * across;
+        }
+        s[0] = s[0] - turn_a.x, s[1] = s[1] - turn_a.y, s[2] = s[2] - turn_a.z;
+        t[0] = t[0] - turn_b.x, t[1] = t[1] - turn_b.y, t[2] = t[2] - turn_b.z;
         scatter_rows(s, view.rows.spin, first, lanes);
         scatter_rows(t, view.rows.spin, second, lanes);
     } else {
         push = laws::smooth_impulse(normal, e, eps);
     }
-    const Vector<R> change = R(0.5) * push;
-    a[0] = a[0] + change.x, a[1] = a[1] + change.y, a[2] = a[2] + change.z;
-    b[0] = b[0] - change.x, b[1] = b[1] - change.y, b[2] = b[2] - change.z;
+    const Vector<R> change_a = share_a * push, change_b = share_b * push;
+    a[0] = a[0] + change_a.x, a[1] = a[1] + change_a.y, a[2] = a[2] + change_a.z;
+    b[0] = b[0] - change_b.x, b[1] = b[1] - change_b.y, b[2] = b[2] - change_b.z;
     scatter_rows(a, view.rows.velocity, first, lanes);
     scatter_rows(b, view.rows.velocity, second, lanes);
 }
 
-template <class Arch, int dimension, bool rough> GasCollisions collide_gas(const GasCollisionView& given) {
+template <class Arch, int dimension, bool rough, bool mixed>
+GasCollisions collide_gas(const GasCollisionView& given) {
     const GasCollisionView view = given; // which no store can change
     const CandidateLists lists(view);
     const auto random = [&](std::uint32_t k, GasStream stream) {
@@ -213,22 +313,26 @@ template <class Arch, int dimension, bool rough> GasCollisions collide_gas(const
     };
     GasCollisions result;
     std::int32_t active =
-        count_candidates<Arch, dimension>(view, random(0, GasStream::rounding), lists, result);
+        count_candidates<Arch, dimension, mixed>(view, random(0, GasStream::rounding), lists, result);
     for (std::uint32_t k = 0; active > 0; ++k) {
         result.candidates += active;
+        const Philox draws = random(k, GasStream::candidate);
         const Chosen chosen =
-            choose_pairs<Arch, dimension>(view, random(k, GasStream::candidate), lists, active, k, result);
+            view.listener.hear == nullptr
+                ? choose_pairs<Arch, dimension, mixed, false>(view, draws, lists, active, k, result)
+                : choose_pairs<Arch, dimension, mixed, true>(view, draws, lists, active, k, result);
         const Philox geometry = random(k, GasStream::geometry);
         for (int l = 0; l < width; ++l) { // behind the last one anything valid
             lists.first[chosen.accepted + l] = lists.first[0];
             lists.second[chosen.accepted + l] = lists.second[0];
         }
         for (std::int32_t at = 0; at < chosen.accepted; at += width)
-            collide_pairs<Arch, dimension, rough>(
+            collide_pairs<Arch, dimension, rough, mixed>(
                 view, geometry, lists, at, chosen.accepted - at < width ? chosen.accepted - at : width);
         result.collisions += chosen.accepted;
         active = chosen.left;
     }
+    if (view.maxwell > 0) result.violations = 0;
     return result;
 }
 

@@ -13,12 +13,29 @@ namespace sandlane::simd {
 
 // Particles are rows of four doubles in two or three arrays:
 //   place:    x, y, z, and a word: identity in its lower half, number of the cell in its upper half
-//   velocity: vx, vy, vz, and a word: images crossed in x, y, z, 20 bits each from the lowest
+//   velocity: vx, vy, vz, and a word: images crossed in x, y, z, 20 bits each from the lowest, and the kind
+//   in
+//             the upper four
 //   spin:     wx, wy, wz, unused; rough particles only
 // In the plane z, vz, wx and wy are zero.
 inline constexpr int gas_row = 4;
 struct GasRows {
     double *place, *velocity, *spin; // spin: null for smooth particles
+};
+
+// What pairs of a mixture do, by the kinds of both, 16 first + second.
+inline constexpr int most_kinds = 16;
+struct GasMixture {
+    static constexpr int pairs = most_kinds * most_kinds;
+    double section[pairs];     // cross-section over the largest one
+    double contact[pairs];     // s_i s_j/(s_i + s_j), m
+    double share[pairs];       // m_j/(m_i + m_j): of the change of the relative velocity, what i gets
+    double coefficient[pairs]; // of laws::restitution_of_pair
+    double radius[most_kinds];
+    double largest_contact;
+    // Enskog: what a particle adds to x_{d-1} [1/m] and x_d of its cell (laws::contact_of_pair); 0: dilute.
+    bool dense;
+    double lower_moment[most_kinds], upper_moment[most_kinds];
 };
 
 // Tags of the uses of random numbers: the lowest 8 bits of the last word of the counter.
@@ -63,23 +80,46 @@ using GasSort = std::int32_t (*)(const SortView&);
 
 // ---- collisions
 
-enum class GasScheme { no_time_counter, direction_first, nanbu_babovsky, majorant_frequency, bernoulli };
+enum class GasScheme {
+    no_time_counter,
+    direction_first,
+    nanbu_babovsky,
+    majorant_frequency,
+    bernoulli,
+    maxwell
+};
 
+// What became of a candidate, for those who compare runs.
+struct GasDecision {
+    std::uint32_t cell, candidate;
+    std::uint32_t first, second; // identities of the pair
+    bool accepted;
+};
+struct GasListener {
+    void (*hear)(void* to, const GasDecision&) = nullptr; // null: nobody listens
+    void* to = nullptr;
+};
+
+inline constexpr int gas_lists = 8;
 struct GasCollisionView {
     GasRows rows; // sorted; eight more rows of velocity and spin may be read
     const std::int32_t* start;
     std::int32_t first_cell, cells;
-    double* list[7]; // room for cells + 16 numbers each
+    double* list[gas_lists]; // room for cells + 16 numbers each
     GasScheme scheme;
-    // F S dt/(2 V): mean number of candidates = rate N (N - 1) g_max; S = pi s^2 or 2 s.
+    // F S dt/(2 V): mean number of candidates = rate N (N - 1) g_max; S = pi s^2 or 2 s, the largest one.
     double rate;
-    double margin; // of the majorant over the diagonal of the extent of the velocities
-    // Enskog: packing fraction that one particle makes in its cell; 0: dilute.
+    double maxwell; // candidates per particle, all of which collide; 0: as `rate` says
+    double margin;  // of the majorant over the diagonal of the extent of the velocities
+    // Enskog: packing fraction that one particle makes in its cell; 0: dilute. A pair sees that of the other
+    // N - 2: their mean is that of the gas, as the mean of N (N - 1) is its density squared.
     double packing;
     laws::Restitution restitution;
     // Rough particles: eps_t, m_t/m_eff = q/(1 + q), radius, q, and friction (0: none) that bounds eps_t.
     double tangential, mass_ratio, radius, inertia, friction;
+    const GasMixture* mixture; // null: all particles are equal
     GasRandom random;
+    GasListener listener;
 };
 inline constexpr double most_candidates = 1e6; // of a cell in a step
 struct GasCollisions {
@@ -127,8 +167,8 @@ void fly_to_walls(const GasFlightView& view, double* place, double* velocity, do
 
 struct DsmcKernels {
     GasSort sort;
-    GasCollide collide[2][2]; // [space][rough]
-    GasFly fly[2];            // [space]
+    GasCollide collide[2][2][2]; // [space][rough][mixture]
+    GasFly fly[2];               // [space]
 };
 [[nodiscard]] const DsmcKernels& dsmc_kernels(Isa isa);
 

@@ -10,6 +10,15 @@
 
 namespace sandlane::analysis {
 
+namespace {
+
+double maxwell_speed_density(int dimension, double c) {
+    const double fall = std::exp(-c * c);
+    return dimension == 3 ? 4 / std::sqrt(std::numbers::pi) * c * c * fall : 2 * c * fall;
+}
+
+} // namespace
+
 GasSamples::GasSamples(const GasFrame& gas, int axis, std::size_t bins)
     : gas_(gas), axis_(axis), bins_(bins), speeds_(speed_bins), components_(2 * speed_bins) {}
 
@@ -46,6 +55,36 @@ std::string GasSamples::profile() const {
     return text;
 }
 
+std::vector<GasSamples::ProfileRow> GasSamples::profile_rows() const {
+    std::vector<ProfileRow> rows;
+    const auto a = static_cast<std::size_t>(axis_);
+    const double bins = static_cast<double>(bins_.size()), width = (gas_.upper[a] - gas_.lower[a]) / bins;
+    for (std::size_t n = 0; n < bins_.size(); ++n) {
+        const Sums& b = bins_[n];
+        const double count = std::max(b.count, 1.0), mass = b.mass > 0 ? b.mass : 1;
+        double temperature = 0;
+        for (std::size_t c = 0; c < static_cast<std::size_t>(gas_.dimension); ++c)
+            temperature += gas_.mass / gas_.dimension *
+                           std::max(0.0, (b.square[c] - b.velocity[c] * b.velocity[c] / mass) / count);
+        rows.push_back(
+            {gas_.lower[a] + (static_cast<double>(n) + 0.5) * width,
+             b.count * gas_.weight * bins / gas_.volume / std::max(1.0, static_cast<double>(frames_)),
+             temperature});
+    }
+    return rows;
+}
+
+std::vector<GasSamples::SpeedRow> GasSamples::speed_rows() const {
+    std::vector<SpeedRow> rows;
+    constexpr double width = fastest / speed_bins;
+    for (std::size_t b = 0; b < speed_bins; ++b) {
+        const double c = (static_cast<double>(b) + 0.5) * width;
+        rows.push_back(
+            {c, speeds_[b] / (std::max(counted_, 1.0) * width), maxwell_speed_density(gas_.dimension, c)});
+    }
+    return rows;
+}
+
 std::string GasSamples::distribution() const {
     std::string text = "c[1],speed_density[1],maxwell_speed_density[1],component_density[1],"
                        "maxwell_component_density[1]\n";
@@ -56,8 +95,7 @@ std::string GasSamples::distribution() const {
         // Both signs of a component together.
         const double component = (components_[speed_bins + b] + components_[speed_bins - 1 - b]) /
                                  (2 * n * gas_.dimension * width);
-        const double maxwell =
-            gas_.dimension == 3 ? 4 / std::sqrt(pi) * c * c * std::exp(-c * c) : 2 * c * std::exp(-c * c);
+        const double maxwell = maxwell_speed_density(gas_.dimension, c);
         text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", c, speeds_[b] / (n * width), maxwell,
                             component, std::exp(-c * c) / std::sqrt(pi));
     }

@@ -39,6 +39,17 @@ public:
     [[nodiscard]] std::string profile() const;
     [[nodiscard]] std::string distribution() const;
 
+    // The same as numbers.
+    struct ProfileRow {
+        double place, density, temperature;
+    };
+    struct SpeedRow {
+        double c, density, maxwell;
+    };
+    [[nodiscard]] std::vector<ProfileRow> profile_rows() const;
+    [[nodiscard]] std::vector<SpeedRow> speed_rows() const;
+    [[nodiscard]] char axis_name() const { return "xyz"[axis_]; }
+
     [[nodiscard]] std::string serialise() const;
     void restore(const std::string& bytes);
 

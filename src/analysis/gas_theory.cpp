@@ -1,6 +1,7 @@
 #include "analysis/gas_theory.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace sandlane::analysis {
@@ -82,6 +83,22 @@ double collision_rate(const HardGas& gas, double temperature) {
     const double variance = temperature / gas.mass, s = gas.diameter, pi = std::numbers::pi;
     const double relative = gas.dimension == 3 ? 4 * std::sqrt(variance / pi) : std::sqrt(pi * variance);
     return gas.density * gas.correlation * (gas.dimension == 3 ? pi * s * s : 2 * s) * relative;
+}
+
+CriticalLengths critical_lengths(int dimension, double eps, double density, double diameter) {
+    constexpr double infinity = std::numeric_limits<double>::infinity(), pi = std::numbers::pi;
+    if (!(eps < 1)) return {infinity, infinity};
+    const double d = dimension;
+    // Cooling rate and transport coefficients over those of the elastic gas.
+    const double zeta = (d + 2) / (4 * d) * (1 - eps * eps);
+    const double n1 = (3 - 3 * eps + 2 * d) * (1 + eps) / (4 * d);
+    const double n2 = (1 + eps) / (d - 1) * ((d - 1) / 2 + 3 * (d + 8) * (1 - eps) / 16);
+    const double eta = 1 / (n1 - zeta / 2), kappa = 1 / (n2 - 2 * d / (d - 1) * zeta);
+    const double mu = 2 * zeta * kappa / (2 * (d - 1) / d * n2 - 3 * zeta);
+    const double c = dimension == 3 ? 5 / (16 * std::sqrt(pi)) : 1 / (2 * std::sqrt(pi));
+    const double k = density * std::pow(diameter, d - 1) / (2 * c);
+    return {2 * pi / (k * std::sqrt(2 * zeta / eta)),
+            2 * pi / (k * std::sqrt(2 * (d - 1) * zeta / ((d + 2) * (kappa - mu))))};
 }
 
 std::vector<double> cooling_curve(const HardGas& gas, double temperature, const std::vector<double>& times) {

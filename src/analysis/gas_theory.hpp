@@ -24,6 +24,14 @@ struct HardGas {
 // Second Sonine coefficient of free cooling with constant restitution, after Montanero and Santos 2000.
 [[nodiscard]] double cooling_a2(int dimension, double eps);
 
+// A freely cooling gas stays uniform in a periodic box shorter than both, m: longer waves of transverse
+// velocity, and of density, grow relative to the thermal ones. Linear theory of a dilute gas with constant
+// restitution below one (specification of event-driven dynamics, 10.4); infinite for an elastic gas.
+struct CriticalLengths {
+    double shear, cluster;
+};
+[[nodiscard]] CriticalLengths critical_lengths(int dimension, double eps, double density, double diameter);
+
 // Temperature of the homogeneous gas [J] at the ascending times [s], from `temperature` at 0, after
 // dT/dt = -zeta(T) T + m xi^2. zeta: Gaussian velocities, with the first Sonine correction for constant
 // restitution (specification of Monte Carlo, 7.2-7.7).

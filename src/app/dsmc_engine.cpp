@@ -13,8 +13,13 @@ namespace sandlane::app {
 
 namespace {
 
+void add_kinds(std::vector<analysis::LogColumn>& columns, const char* name, std::size_t kinds) {
+    for (std::size_t k = 0; k < kinds && kinds > 1; ++k)
+        columns.push_back({fmt::format("{}_{}", name, k), "J"});
+}
+
 std::vector<dsmc::Particle> start_of(const scene::Scene& scene, const dsmc::Plan& plan) {
-    return dsmc::maxwellian(plan.setup, static_cast<std::uint32_t>(scene.gas.particles),
+    return dsmc::maxwellian(plan.setup, static_cast<std::uint32_t>(dsmc::all_particles(scene)),
                             scene.gas.temperature, scene.gas.spin_temperature);
 }
 
@@ -75,8 +80,9 @@ void DsmcEngine::restore(const std::string& state, const std::string& origin) {
     try {
         simulation_.restore(state);
     } catch (const Error& e) {
-        fail(e.code(), "{}: {}. Overrides by --set must keep gas, domain, sides, cells and time step.",
-             origin, e.what());
+        fail(e.code(),
+             "{}: {}. Overrides by --set must keep gas, species, domain, sides, cells and time step.", origin,
+             e.what());
     }
 }
 
@@ -94,28 +100,61 @@ std::vector<Difference> DsmcEngine::compare_kernels(simd::Isa first, simd::Isa s
     return differences(a.particles(), b.particles());
 }
 
+std::vector<Decision> DsmcEngine::take_decisions() {
+    std::vector<Decision> all;
+    for (const auto& [step, of] : simulation_.take_decisions())
+        all.push_back({step, 0, of.cell, of.candidate, of.first, of.second, of.accepted ? 1U : 0U});
+    return all;
+}
+
+std::string DsmcEngine::tell(const Decision& d) const {
+    return fmt::format("step {}, cell {}, candidate {}: particles {} and {} {}", d.step, d.place, d.number,
+                       d.first, d.second, d.outcome == 1 ? "collide" : "do not collide");
+}
+
 std::vector<analysis::LogColumn> DsmcEngine::log_columns() const {
-    std::vector<analysis::LogColumn> columns = {
-        {"time", "s"},   {"step", "1"},        {"temperature", "J"},  {"a2", "1"},
-        {"energy", "J"}, {"wall_energy", "J"}, {"velocity_x", "m/s"}, {"velocity_y", "m/s"}};
+    std::vector<analysis::LogColumn> columns = {{"time", "s"}, {"step", "1"}, {"temperature", "J"}};
+    add_kinds(columns, "temperature", kinds());
+    columns.insert(
+        columns.end(),
+        {{"a2", "1"}, {"energy", "J"}, {"wall_energy", "J"}, {"velocity_x", "m/s"}, {"velocity_y", "m/s"}});
     if (scene_->domain.dimension == 3) columns.push_back({"velocity_z", "m/s"});
     if (plan_->setup.rough) columns.push_back({"spin_temperature", "J"});
-    if (theory_) columns.push_back({"theory_temperature", "J"});
+    if (plan_->setup.shear != 0)
+        columns.push_back({"shear_stress", plan_->setup.dimension == 3 ? "Pa" : "N/m"});
+    if (theory_) {
+        columns.push_back({"theory_temperature", "J"});
+        add_kinds(columns, "theory_temperature", kinds());
+    }
     columns.push_back({"collisions_per_particle", "1"});
     columns.push_back({"acceptance", "1"});
     columns.push_back({"dt", "s"});
     return columns;
 }
 
+void DsmcEngine::add_theory(std::vector<double>& row) const {
+    const dsmc::Setup& s = plan_->setup;
+    if (kinds() == 1) {
+        row.push_back(dsmc::cooling_curve(s, size(), scene_->gas.temperature, {time()}).front());
+        return;
+    }
+    const std::vector<double> of_kind = dsmc::kind_temperatures(s, size(), scene_->gas.temperature, time());
+    double mean = 0;
+    for (std::size_t k = 0; k < kinds(); ++k) mean += s.kind(k).fraction * of_kind[k];
+    row.push_back(mean);
+    row.insert(row.end(), of_kind.begin(), of_kind.end());
+}
+
 std::vector<double> DsmcEngine::log_row() {
     const dsmc::Observables o = simulation_.observe();
     const dsmc::Counts& counts = simulation_.counts();
-    std::vector<double> row = {time(),   static_cast<double>(step()), o.temperature, o.fourth,
-                               o.energy, simulation_.wall_energy(),   o.drift[0],    o.drift[1]};
+    std::vector<double> row = {time(), static_cast<double>(step()), o.temperature};
+    if (kinds() > 1) row.insert(row.end(), o.of_kind.begin(), o.of_kind.end());
+    row.insert(row.end(), {o.fourth, o.energy, simulation_.wall_energy(), o.drift[0], o.drift[1]});
     if (scene_->domain.dimension == 3) row.push_back(o.drift[2]);
     if (plan_->setup.rough) row.push_back(o.spin_temperature);
-    if (theory_)
-        row.push_back(dsmc::cooling_curve(plan_->setup, size(), scene_->gas.temperature, {time()}).front());
+    if (plan_->setup.shear != 0) row.push_back(o.shear_stress);
+    if (theory_) add_theory(row);
     // Two particles in each.
     row.push_back(2 * static_cast<double>(counts.collisions) / static_cast<double>(size()));
     row.push_back(counts.candidates > 0
@@ -157,13 +196,15 @@ analysis::Snapshot DsmcEngine::snapshot() const {
     analysis::Snapshot s = snapshot_of_box(*scene_);
     s.step = step();
     s.time = time();
-    for (const dsmc::Particle& p : simulation_.particles())
-        add_particle(s, p, 0.5 * scene_->gas.diameter, scene_->gas.mass, 0);
+    for (const dsmc::Particle& p : simulation_.particles()) {
+        const dsmc::Kind kind = plan_->setup.kind(p.kind);
+        add_particle(s, p, 0.5 * kind.diameter, kind.mass, static_cast<std::int32_t>(p.kind));
+    }
     return s;
 }
 
 GasSampling DsmcEngine::sampling() const {
-    return {scene_->dsmc.sample_every, scene_->dsmc.sample_start};
+    return {scene_->dsmc.sample_every, scene_->dsmc.sample_start, scene_->dsmc.structure_every};
 }
 
 analysis::GasSamples DsmcEngine::make_samples() const {
@@ -173,8 +214,41 @@ analysis::GasSamples DsmcEngine::make_samples() const {
     return {dsmc::frame_of(plan_->setup), static_cast<int>(axis), static_cast<std::size_t>(bins)};
 }
 
+std::vector<dsmc::Particle> DsmcEngine::thermal_particles() const {
+    std::vector<dsmc::Particle> all = simulation_.particles();
+    if (plan_->setup.shear != 0)
+        for (dsmc::Particle& p : all) p.velocity[0] -= plan_->setup.flow(p.place[1]);
+    return all;
+}
+
 void DsmcEngine::sample(analysis::GasSamples& samples) const {
-    samples.add(simulation_.particles());
+    const dsmc::Setup& s = plan_->setup;
+    if (kinds() == 1) return samples.add(thermal_particles());
+    std::vector<double> ratio;
+    for (std::size_t k = 0; k < kinds(); ++k) ratio.push_back(s.kind(k).mass / s.mass);
+    samples.add(thermal_particles(), [&](const dsmc::Particle& p) { return ratio[p.kind]; });
+}
+
+analysis::GasStructure DsmcEngine::make_structure() const {
+    const dsmc::Setup& s = plan_->setup;
+    analysis::StructurePlan plan;
+    plan.gas = dsmc::frame_of(s);
+    std::copy(std::begin(s.walls.periodic), std::end(s.walls.periodic), plan.periodic);
+    plan.reach = scene_->dsmc.cluster_reach;
+    plan.cell = counting_cell(dsmc::scales(s, size(), scene_->gas.temperature).free_path, s.volume(), size(),
+                              s.dimension);
+    return analysis::GasStructure(plan);
+}
+
+std::vector<analysis::StructureParticle> DsmcEngine::structure_particles() const {
+    std::vector<analysis::StructureParticle> all;
+    const dsmc::Setup& s = plan_->setup;
+    const double larger = std::pow(s.weight, 1.0 / s.dimension);
+    for (const dsmc::Particle& p : thermal_particles()) {
+        const dsmc::Kind kind = s.kind(p.kind);
+        all.push_back({p.place, p.velocity, kind.mass, 0.5 * larger * kind.diameter});
+    }
+    return all;
 }
 
 std::string DsmcEngine::plan_json() const {
@@ -215,7 +289,7 @@ public:
     [[nodiscard]] std::string description() const override { return dsmc::describe(*scene_, *plan_); }
     [[nodiscard]] std::string json() const override {
         const dsmc::Setup& s = plan_->setup;
-        const auto n = static_cast<std::size_t>(scene_->gas.particles);
+        const auto n = dsmc::all_particles(*scene_);
         const dsmc::Scales scale = dsmc::scales(s, n, scene_->gas.temperature);
         return fmt::format(
             R"({{"particles": {}, "cells": [{}, {}, {}], "dt": {}, "steps": {}, "collision_rate": {}, )"

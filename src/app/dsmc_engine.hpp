@@ -21,6 +21,8 @@ public:
     [[nodiscard]] GasSampling sampling() const override;
     [[nodiscard]] analysis::GasSamples make_samples() const override;
     void sample(analysis::GasSamples& samples) const override;
+    [[nodiscard]] analysis::GasStructure make_structure() const override;
+    [[nodiscard]] std::vector<analysis::StructureParticle> structure_particles() const override;
 
     [[nodiscard]] const Words& words() const override;
     [[nodiscard]] const scene::Scene& scene() const override { return *scene_; }
@@ -45,6 +47,13 @@ public:
     [[nodiscard]] std::vector<Difference> compare_kernels(simd::Isa first, simd::Isa second) const override;
     [[nodiscard]] std::string kernels_compared() const override { return "One step from the initial state"; }
 
+    bool keep_decisions() override {
+        simulation_.keep_decisions();
+        return true;
+    }
+    [[nodiscard]] std::vector<Decision> take_decisions() override;
+    [[nodiscard]] std::string tell(const Decision& decision) const override;
+
     [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override;
     [[nodiscard]] std::vector<double> log_row() override;
     [[nodiscard]] std::vector<std::string> news() override;
@@ -55,6 +64,9 @@ public:
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> report_rows() const override;
 
 private:
+    [[nodiscard]] std::size_t kinds() const { return plan_->setup.kinds(); }
+    [[nodiscard]] std::vector<dsmc::Particle> thermal_particles() const; // without the flow of a sheared gas
+    void add_theory(std::vector<double>& row) const;
     [[nodiscard]] bool adaptive() const { return plan_->setup.adaptive; }
 
     std::shared_ptr<const scene::Scene> scene_;

@@ -1,4 +1,5 @@
 // Event-driven dynamics as an engine of the program. A step is an event.
+#include "analysis/gas_mixture.hpp"
 #include "app/gas_engine.hpp"
 #include "app/gas_recorder.hpp"
 #include "app/json.hpp"
@@ -33,6 +34,22 @@ std::vector<Difference> differences(const std::vector<edmd::Particle>& a,
     return found;
 }
 
+// What theory knows the temperatures of: smooth particles of several kinds, constant restitution, nothing
+// else. Empty: something else.
+analysis::MixtureGas mixture_of(const edmd::Plan& plan) {
+    const edmd::Setup& s = plan.setup;
+    analysis::MixtureGas gas;
+    if (s.classes.size() == 1 || s.rough || s.has_walls() || s.falls() ||
+        s.restitution.model != laws::Restitution::Model::constant)
+        return gas;
+    gas.dimension = s.dimension;
+    gas.dense = true;
+    for (std::size_t k = 0; k < s.classes.size(); ++k)
+        gas.kinds.push_back({plan.amounts[k] / s.volume(), s.classes[k].mass, 2 * s.classes[k].radius});
+    gas.restitution.assign(gas.size() * gas.size(), s.restitution.eps);
+    return gas;
+}
+
 // Sums at the last row of the log, from which the next row takes rates.
 struct Mark {
     double time = 0, virial = 0, temperature = 0;
@@ -44,7 +61,7 @@ public:
     EdmdEngine(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const edmd::Plan> plan,
                simd::Isa isa)
         : scene_(std::move(scene)), plan_(std::move(plan)), isa_(isa),
-          run_(edmd::start(*scene_, *plan_, isa)) {}
+          run_(edmd::start(*scene_, *plan_, isa)), mixture_(mixture_of(*plan_)) {}
 
     [[nodiscard]] const Words& words() const override {
         static const Words words{"particle", "particles", "particles", "events", "events", "s"};
@@ -111,6 +128,13 @@ public:
         return "100 events from the present state";
     }
 
+    bool keep_decisions() override {
+        run_->log().record(&events_);
+        return true;
+    }
+    [[nodiscard]] std::vector<Decision> take_decisions() override;
+    [[nodiscard]] std::string tell(const Decision& decision) const override;
+
     [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override;
     [[nodiscard]] std::vector<double> log_row() override;
     [[nodiscard]] std::vector<std::string> news() override {
@@ -122,7 +146,7 @@ public:
     }
     [[nodiscard]] analysis::Snapshot snapshot() const override;
     [[nodiscard]] GasSampling sampling() const override {
-        return {scene_->edmd.sample_every, scene_->edmd.sample_start};
+        return {scene_->edmd.sample_every, scene_->edmd.sample_start, scene_->edmd.structure_every};
     }
     [[nodiscard]] analysis::GasSamples make_samples() const override {
         return {edmd::frame_of(*plan_), static_cast<int>(scene_->edmd.profile_axis),
@@ -132,6 +156,26 @@ public:
         const std::vector<edmd::Class>& classes = plan_->setup.classes;
         samples.add(run_->particles(),
                     [&](const edmd::Particle& p) { return classes[p.kind].mass / classes[0].mass; });
+    }
+    [[nodiscard]] analysis::GasStructure make_structure() const override {
+        const edmd::Setup& s = plan_->setup;
+        analysis::StructurePlan plan;
+        plan.gas = edmd::frame_of(*plan_);
+        std::copy(std::begin(s.periodic), std::end(s.periodic), plan.periodic);
+        plan.reach = scene_->edmd.cluster_reach;
+        const analysis::HardGas gas = edmd::gas_of(*plan_);
+        const double speed = std::sqrt(scene_->gas.temperature / gas.mass);
+        const double rate = analysis::collision_rate(gas, scene_->gas.temperature);
+        plan.cell = counting_cell(1.5 * speed / rate, s.volume(), size(), s.dimension);
+        return analysis::GasStructure(plan);
+    }
+    [[nodiscard]] std::vector<analysis::StructureParticle> structure_particles() const override {
+        std::vector<analysis::StructureParticle> all;
+        for (const edmd::Particle& p : run_->particles()) {
+            const edmd::Class& c = plan_->setup.classes[p.kind];
+            all.push_back({p.place, p.velocity, c.mass, c.radius});
+        }
+        return all;
     }
     [[nodiscard]] std::string plan_json() const override {
         return fmt::format(R"({{"engine": "edmd", "algorithm": "{}", "rough": {}, "classes": {}}})",
@@ -158,7 +202,25 @@ private:
     std::unique_ptr<edmd::Algorithm> run_;
     bool ended_ = false; // nothing is left to happen until the end
     Mark mark_;
+    analysis::MixtureGas mixture_;    // no kinds: theory knows nothing
+    std::vector<edmd::Event> events_; // since they were taken the last time
 };
+
+std::vector<Decision> EdmdEngine::take_decisions() {
+    std::vector<Decision> all;
+    std::int64_t number = step() - static_cast<std::int64_t>(events_.size());
+    for (const edmd::Event& e : events_)
+        all.push_back({++number, e.time, 0, 0, e.first, e.second, static_cast<std::uint32_t>(e.kind)});
+    events_.clear();
+    return all;
+}
+
+std::string EdmdEngine::tell(const Decision& d) const {
+    const bool pair = d.outcome == static_cast<std::uint32_t>(edmd::Event::Kind::pair);
+    return fmt::format("event {} at {} s of its epoch: particle {} {}", d.step, d.time, d.first,
+                       pair ? fmt::format("and particle {}", d.second)
+                            : fmt::format("at side {}{}", "-+"[d.second % 2], "xyz"[d.second / 2 % 3]));
+}
 
 std::vector<analysis::LogColumn> EdmdEngine::log_columns() const {
     std::vector<analysis::LogColumn> columns = {{"time", "s"}, {"event", "1"}, {"temperature", "J"}};
@@ -170,6 +232,8 @@ std::vector<analysis::LogColumn> EdmdEngine::log_columns() const {
         columns.push_back({fmt::format("velocity_{}", "xyz"[d]), "m/s"});
     if (plan_->setup.rough) columns.push_back({"spin_temperature", "J"});
     if (plan_->homogeneous) columns.push_back({"theory_temperature", "J"});
+    for (std::size_t k = 0; k < mixture_.size(); ++k)
+        columns.push_back({fmt::format("theory_temperature_{}", k), "J"});
     columns.insert(columns.end(),
                    {{"collisions_per_particle", "1"}, {"collision_rate", "1/s"}, {"compressibility", "1"}});
     if (guards()) columns.push_back({"elastic_collisions", "1"});
@@ -188,6 +252,10 @@ std::vector<double> EdmdEngine::log_row() {
     if (plan_->homogeneous)
         row.push_back(
             analysis::cooling_curve(edmd::gas_of(*plan_), scene_->gas.temperature, {time()}).front());
+    if (mixture_.size() > 0) {
+        const auto of_kind = analysis::cooling_curves(mixture_, scene_->gas.temperature, {time()}).front();
+        row.insert(row.end(), of_kind.begin(), of_kind.end());
+    }
     const double interval = time() - mark_.time;
     const double rate =
         interval > 0 ? 2 * static_cast<double>(t.collisions - mark_.collisions) / (n * interval) : 0;
@@ -216,14 +284,25 @@ analysis::Snapshot EdmdEngine::snapshot() const {
 std::vector<std::pair<std::string, std::string>> EdmdEngine::report_rows() const {
     const edmd::Observables o = edmd::observe(plan_->setup, run_->particles());
     const edmd::Tally& t = run_->tally();
-    return {{"Particles", std::to_string(size())},
-            {"Simulated time", fmt::format("{:.4g} s", time())},
-            {"Collisions", std::to_string(t.collisions)},
-            {"Hits of walls", std::to_string(t.wall_hits)},
-            {"Collisions per particle",
-             fmt::format("{:.4g}", 2 * static_cast<double>(t.collisions) / static_cast<double>(size()))},
-            {"Temperature", fmt::format("{:.4g} J", o.temperature)},
-            {"Smallest gap at a contact", fmt::format("{:.2g} m", t.smallest_gap)}};
+    std::vector<std::pair<std::string, std::string>> rows;
+    const analysis::HardGas gas = edmd::gas_of(*plan_);
+    if (plan_->homogeneous && gas.restitution.model == laws::Restitution::Model::constant &&
+        gas.restitution.eps < 1) {
+        const analysis::CriticalLengths l =
+            analysis::critical_lengths(gas.dimension, gas.restitution.eps, gas.density, gas.diameter);
+        rows.push_back({"Critical length of vortices, of clusters",
+                        fmt::format("{:.4g} m, {:.4g} m (dilute gas)", l.shear, l.cluster)});
+    }
+    rows.insert(rows.begin(),
+                {{"Particles", std::to_string(size())},
+                 {"Simulated time", fmt::format("{:.4g} s", time())},
+                 {"Collisions", std::to_string(t.collisions)},
+                 {"Hits of walls", std::to_string(t.wall_hits)},
+                 {"Collisions per particle",
+                  fmt::format("{:.4g}", 2 * static_cast<double>(t.collisions) / static_cast<double>(size()))},
+                 {"Temperature", fmt::format("{:.4g} J", o.temperature)},
+                 {"Smallest gap at a contact", fmt::format("{:.2g} m", t.smallest_gap)}});
+    return rows;
 }
 
 class EdmdSetup final : public Setup {

@@ -58,6 +58,17 @@ public:
     virtual void add_to_report(output::ReportInput&) const {}
 };
 
+// One decision of a run, such as a candidate that was drawn or an event that was taken. The runs of a scene
+// make the same ones in the same order, whatever computes them.
+struct Decision {
+    std::int64_t step = 0;
+    double time = 0;                     // s
+    std::uint32_t place = 0, number = 0; // cell, and candidate there
+    std::uint32_t first = 0, second = 0; // identities
+    std::uint32_t outcome = 0;
+    friend bool operator==(const Decision&, const Decision&) = default;
+};
+
 class Engine {
 public:
     virtual ~Engine() = default;
@@ -101,6 +112,11 @@ public:
     [[nodiscard]] virtual std::vector<Difference> compare_kernels(simd::Isa first,
                                                                   simd::Isa second) const = 0;
     [[nodiscard]] virtual std::string kernels_compared() const = 0; // "Forces of the initial state"
+
+    // ---- decisions, where an engine draws or orders them
+    virtual bool keep_decisions() { return false; } // from now on; false: there are none
+    [[nodiscard]] virtual std::vector<Decision> take_decisions() { return {}; } // since the last call
+    [[nodiscard]] virtual std::string tell(const Decision&) const { return {}; }
 
     // ---- outputs
     [[nodiscard]] virtual std::vector<analysis::LogColumn> log_columns() const = 0;

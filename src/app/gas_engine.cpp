@@ -6,6 +6,7 @@
 #include "scene/schema.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sandlane::app {
 
@@ -18,6 +19,11 @@ analysis::Snapshot snapshot_of_box(const scene::Scene& scene) {
     s.periodic_y = scene.domain.periodic[1];
     s.periodic_z = scene.domain.periodic[2];
     return s;
+}
+
+double counting_cell(double free_path, double volume, std::size_t particles, int dimension) {
+    const double edge = std::pow(10 * volume / static_cast<double>(particles), 1.0 / dimension);
+    return std::isfinite(free_path) ? std::max(free_path, edge) : edge;
 }
 
 void GasEngine::draw(const std::filesystem::path& png, const Look& look) const {

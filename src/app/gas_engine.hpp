@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/gas_samples.hpp"
+#include "analysis/gas_structure.hpp"
 #include "app/engine.hpp"
 
 namespace sandlane::app {
@@ -9,6 +10,7 @@ namespace sandlane::app {
 // When frames for profile.csv and distribution.csv are taken [s]; every as for interval().
 struct GasSampling {
     double every = 0, start = 0;
+    double structure_every = 0; // s; 0 or less: never
 };
 
 class GasEngine : public Engine {
@@ -17,9 +19,14 @@ public:
     [[nodiscard]] virtual GasSampling sampling() const = 0;
     [[nodiscard]] virtual analysis::GasSamples make_samples() const = 0;
     virtual void sample(analysis::GasSamples& samples) const = 0;
+    [[nodiscard]] virtual analysis::GasStructure make_structure() const = 0;
+    [[nodiscard]] virtual std::vector<analysis::StructureParticle> structure_particles() const = 0;
 
     void draw(const std::filesystem::path& png, const Look& look) const override;
 };
+
+// Cells to count particles in: a mean free path long, but ten particles each at least.
+[[nodiscard]] double counting_cell(double free_path, double volume, std::size_t particles, int dimension);
 
 // An empty snapshot of the box of a scene.
 [[nodiscard]] analysis::Snapshot snapshot_of_box(const scene::Scene& scene);

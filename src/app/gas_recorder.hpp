@@ -24,14 +24,16 @@ public:
     void add_bookmarks(std::map<std::string, std::string>& bookmarks) override;
     void finish() override { write_tables(); }
     [[nodiscard]] std::int64_t pictures() const override { return pictures_.count(); }
+    void add_to_report(output::ReportInput& report) const override;
 
 private:
     void write_tables() const;
 
     const GasEngine& engine_;
     std::filesystem::path folder_;
-    std::int64_t sample_steps_, picture_steps_, trajectory_steps_;
+    std::int64_t sample_steps_, structure_steps_, picture_steps_, trajectory_steps_;
     analysis::GasSamples samples_;
+    analysis::GasStructure structure_;
     output::PictureSeries pictures_;
     std::map<std::string, std::unique_ptr<output::TrajectoryWriter>> trajectories_; // by name of bookmark
 };

@@ -11,6 +11,12 @@
 
 namespace sandlane::dsmc {
 
+std::size_t all_particles(const scene::Scene& scene) {
+    auto sum = static_cast<std::size_t>(scene.gas.particles);
+    for (const scene::Species& more : scene.species) sum += static_cast<std::size_t>(more.particles);
+    return sum;
+}
+
 namespace {
 
 simd::GasSide side_of(const scene::GasSide& from, double mass) {
@@ -39,6 +45,7 @@ Setup setup_of(const scene::Scene& scene) {
         const auto n = static_cast<std::size_t>(side.side);
         s.walls.side[n / 2][n % 2] = side_of(side, gas.mass);
     }
+    s.shear = scene.domain.shear_rate;
     const Vec& gravity = scene.domain.gravity;
     s.gravity[0] = gravity.x;
     s.gravity[1] = gravity.y;
@@ -51,6 +58,12 @@ Setup setup_of(const scene::Scene& scene) {
     s.friction = gas.friction;
     s.inertia = analysis::inertia_of(gas.body);
     s.restitution = analysis::restitution_of(gas);
+    const auto n = static_cast<double>(all_particles(scene));
+    for (const scene::Species& more : scene.species)
+        s.others.push_back({more.mass, more.diameter, static_cast<double>(more.particles) / n});
+    for (const scene::GasPair& pair : scene.gas_pairs)
+        s.pairs.push_back({static_cast<std::size_t>(pair.between[0]),
+                           static_cast<std::size_t>(pair.between[1]), pair.restitution, pair.dissipation});
     s.scheme = static_cast<simd::GasScheme>(scene.dsmc.scheme);
     s.enskog = scene.dsmc.enskog;
     s.dt = scene.dsmc.dt;
@@ -74,8 +87,7 @@ double highest_temperature(const scene::Scene& scene, const Setup& s) {
 
 void choose_cells(const scene::Scene& scene, Plan& plan) {
     Setup& s = plan.setup;
-    const double l =
-        scales(s, static_cast<std::size_t>(scene.gas.particles), scene.gas.temperature).free_path;
+    const double l = scales(s, all_particles(scene), scene.gas.temperature).free_path;
     double given = 1, volume = 1;
     int open = 0;
     for (int d = 0; d < s.dimension; ++d) {
@@ -87,7 +99,7 @@ void choose_cells(const scene::Scene& scene, Plan& plan) {
         volume *= s.upper[d] - s.lower[d];
     }
     if (open == 0) return;
-    const double most = std::max(1.0, static_cast<double>(scene.gas.particles) / 10 / given);
+    const double most = std::max(1.0, static_cast<double>(all_particles(scene)) / 10 / given);
     const double edge = std::pow(volume / most, 1.0 / open);
     const bool by_number = edge > l / 3;
     const double wanted = std::max(edge, l / 3);
@@ -105,10 +117,12 @@ void choose_cells(const scene::Scene& scene, Plan& plan) {
 void choose_dt(const scene::Scene& scene, Plan& plan, double hottest) {
     Setup& s = plan.setup;
     if (s.dt > 0) return;
-    const Scales scale = scales(s, static_cast<std::size_t>(scene.gas.particles), hottest);
+    const Scales scale = scales(s, all_particles(scene), hottest);
     double dt = scale.collision_rate > 0 ? 0.1 / scale.collision_rate : 1e300;
     const char* reason = "0.1 collisions per particle";
-    const double speed = 2 * std::sqrt(2 * hottest / s.mass);
+    double lightest = s.mass;
+    for (const Kind& k : s.others) lightest = std::min(lightest, k.mass);
+    const double speed = 2 * std::sqrt(2 * hottest / lightest);
     for (int d = 0; d < s.dimension; ++d) {
         if (s.cells[d] == 1) continue;
         const double crossing = 0.5 * s.edge(d) / speed;
@@ -137,6 +151,7 @@ void say_what_is_skipped(Plan& plan) {
         if (condition) plan.skipped.push_back(text);
     };
     skip(!s.rough, "spins: the particles are smooth");
+    skip(s.others.empty(), "kinds of particles: all are equal");
     skip(s.restitution.model == laws::Restitution::Model::constant,
          "restitution by impact speed: it is constant");
     skip(!s.enskog, "pair correlation at contact");
@@ -148,6 +163,7 @@ void say_what_is_skipped(Plan& plan) {
     }
     skip(!walls, "walls: all sides are periodic");
     skip(!falls, "gravity");
+    skip(s.shear == 0, "shear of the periodic images");
 }
 
 } // namespace
@@ -161,7 +177,7 @@ Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& thr
     choose_dt(scene, plan, hottest);
     const Setup& s = plan.setup;
     check_cells(s);
-    const auto n = static_cast<std::size_t>(scene.gas.particles);
+    const auto n = all_particles(scene);
     const double steps = s.adaptive ? adaptive_steps(s, n, scene.gas.temperature, scene.dsmc.duration)
                                     : scene.dsmc.duration / s.dt;
     if (steps > 9e15)
@@ -176,7 +192,9 @@ Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& thr
         plan.threads = std::max(1, tiling.tiles());
         plan.chosen.push_back("fewer threads than CPUs: there are not more tiles of cells");
     }
-    if (s.scheme != simd::GasScheme::no_time_counter)
+    if (s.scheme == simd::GasScheme::maxwell)
+        plan.chosen.push_back("collisions at the rate of the start, whatever the relative speed");
+    else if (s.scheme != simd::GasScheme::no_time_counter)
         plan.chosen.push_back("collisions without vector kernels: this scheme is an oracle");
     plan.warnings = warnings(s, n, scene.gas.temperature);
     for (const auto& axis : s.walls.side)
@@ -193,13 +211,13 @@ double memory_bytes(const scene::Scene& scene, const Plan& plan) {
     // Beside the rows, one list of particles for outputs and what a checkpoint holds; a gas of one cell is
     // sorted whole.
     const bool whole = plan.setup.cells[0] * plan.setup.cells[1] * plan.setup.cells[2] == 1;
-    return static_cast<double>(scene.gas.particles) * ((whole ? 4 : 2.4) * row + sizeof(Particle)) +
+    return static_cast<double>(all_particles(scene)) * ((whole ? 4 : 2.4) * row + sizeof(Particle)) +
            plan.threads * 1e6;
 }
 
 std::string describe(const scene::Scene& scene, const Plan& plan) {
     const Setup& s = plan.setup;
-    const auto n = static_cast<std::size_t>(scene.gas.particles);
+    const auto n = all_particles(scene);
     const Scales scale = scales(s, n, scene.gas.temperature);
     std::string text;
     const auto line = [&](const char* label, const std::string& value) {
@@ -211,7 +229,8 @@ std::string describe(const scene::Scene& scene, const Plan& plan) {
         if (s.cells[d] > 1) edge = std::max(edge, s.edge(d));
     }
     text += fmt::format("{}\n\nScene\n", scene.title.empty() ? "(untitled)" : scene.title);
-    line("particles", fmt::format("{}, each for {:.4g} real ones", n, s.weight));
+    line("particles", fmt::format("{} of {} kind{}, each for {:.4g} real ones", n, s.kinds(),
+                                  s.kinds() == 1 ? "" : "s", s.weight));
     line("density, packing fraction",
          fmt::format("{:.4g} 1/m^{}, {:.4g}", scale.density, s.dimension, scale.packing));
     line("temperature", fmt::format("{:.4g} J at the start", scene.gas.temperature));
@@ -221,6 +240,13 @@ std::string describe(const scene::Scene& scene, const Plan& plan) {
     line("mean free path", fmt::format("{:.4g} m", scale.free_path));
     line("contact correlation", fmt::format("{:.4g}", scale.correlation));
     line("cooling", fmt::format("{:.4g} 1/s", scale.cooling));
+    if (is_homogeneous(s) && s.others.empty() && s.kicks == 0 &&
+        s.restitution.model == laws::Restitution::Model::constant && s.restitution.eps < 1) {
+        const analysis::CriticalLengths l =
+            analysis::critical_lengths(s.dimension, s.restitution.eps, scale.density, s.diameter);
+        line("critical lengths",
+             fmt::format("{:.4g} m of vortices, {:.4g} m of clusters", l.shear, l.cluster));
+    }
     line("cells", fmt::format("{} x {}{}, {:.3g} particles each, {:.3g} mean free paths long", s.cells[0],
                               s.cells[1], s.dimension == 3 ? fmt::format(" x {}", s.cells[2]) : "",
                               static_cast<double>(n) / count, edge / scale.free_path));

@@ -19,6 +19,9 @@ struct Plan {
     std::vector<std::string> chosen, skipped, warnings;
 };
 
+// Of [gas] and [[species]].
+[[nodiscard]] std::size_t all_particles(const scene::Scene& scene);
+
 // Throws Error(invalid_input) for what the method cannot do.
 [[nodiscard]] Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& threads);
 [[nodiscard]] double memory_bytes(const scene::Scene& scene, const Plan& plan);

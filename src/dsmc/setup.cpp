@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
+#include "dsmc/theory.hpp"
 #include "laws/collision.hpp"
 
 #include <algorithm>
@@ -19,11 +20,61 @@ double Setup::cell_volume() const {
     return volume() / count;
 }
 double Setup::cross_section() const {
-    return dimension == 3 ? std::numbers::pi * diameter * diameter : 2 * diameter;
+    double longest = diameter;
+    for (const Kind& k : others) longest = std::max(longest, k.diameter);
+    return dimension == 3 ? std::numbers::pi * longest * longest : 2 * longest;
 }
 double Setup::particle_volume() const {
-    const double square = std::numbers::pi * diameter * diameter;
-    return dimension == 3 ? square * diameter / 6 : square / 4;
+    double sum = 0;
+    for (std::size_t n = 0; n < kinds(); ++n) {
+        const Kind k = kind(n);
+        const double square = std::numbers::pi * k.diameter * k.diameter;
+        sum += k.fraction * (dimension == 3 ? square * k.diameter / 6 : square / 4);
+    }
+    return sum;
+}
+Kind Setup::kind(std::size_t k) const {
+    if (k > 0) return others[k - 1];
+    double rest = 1;
+    for (const Kind& other : others) rest -= other.fraction;
+    return {mass, diameter, rest};
+}
+laws::Restitution Setup::restitution_of(std::size_t i, std::size_t j) const {
+    laws::Restitution law = restitution;
+    for (const PairRestitution& p : pairs)
+        if ((p.first == i && p.second == j) || (p.first == j && p.second == i)) {
+            law.eps = p.eps;
+            law.dissipation = p.dissipation;
+        }
+    return law;
+}
+
+simd::GasMixture mixture_of(const Setup& setup) {
+    simd::GasMixture m{};
+    double longest = setup.diameter;
+    for (const Kind& k : setup.others) longest = std::max(longest, k.diameter);
+    m.largest_contact = 0.5 * longest;
+    m.dense = setup.enskog;
+    const double part =
+        setup.weight * std::numbers::pi / (setup.dimension == 3 ? 6 : 4) / setup.cell_volume();
+    for (std::size_t i = 0; i < setup.kinds(); ++i) {
+        const Kind a = setup.kind(i);
+        m.radius[i] = 0.5 * a.diameter;
+        m.lower_moment[i] = part * (setup.dimension == 3 ? a.diameter * a.diameter : a.diameter);
+        m.upper_moment[i] = m.lower_moment[i] * a.diameter;
+        for (std::size_t j = 0; j < setup.kinds(); ++j) {
+            const Kind b = setup.kind(j);
+            const std::size_t pair = simd::most_kinds * i + j;
+            const double reach = 0.5 * (a.diameter + b.diameter) / longest;
+            m.section[pair] = setup.dimension == 3 ? reach * reach : reach;
+            m.contact[pair] = a.diameter * b.diameter / (a.diameter + b.diameter);
+            m.share[pair] = b.mass / (a.mass + b.mass);
+            const laws::Restitution law = setup.restitution_of(i, j);
+            m.coefficient[pair] =
+                law.model == laws::Restitution::Model::viscoelastic ? std::sqrt(law.dissipation) : law.eps;
+        }
+    }
+    return m;
 }
 
 std::vector<Particle> maxwellian(const Setup& setup, std::uint32_t count, double temperature,
@@ -43,10 +94,21 @@ std::vector<Particle> maxwellian(const Setup& setup, std::uint32_t count, double
         return std::array<double, 3>{a[0], a[1], setup.dimension == 3 ? b[0] : 0.0};
     };
     std::array<double, 3> mean{};
+    double masses = 0; // of all, over that of the first
+    // The first kind takes what rounding leaves of the others.
+    std::vector<std::uint32_t> end(setup.kinds(), count);
+    for (std::size_t k = setup.kinds() - 1; k > 0; --k)
+        end[k - 1] = end[k] - static_cast<std::uint32_t>(std::lround(setup.kind(k).fraction * count));
+    std::vector<double> mass_ratio(setup.kinds());
+    for (std::size_t k = 0; k < setup.kinds(); ++k) mass_ratio[k] = setup.kind(k).mass / setup.mass;
     for (std::uint32_t id = 0; id < count; ++id) {
         Particle& p = particles[id];
         p.id = id;
+        while (id >= end[p.kind]) ++p.kind;
+        const double ratio = mass_ratio[p.kind], slower = 1 / std::sqrt(ratio);
+        masses += ratio;
         p.velocity = normals(0, id);
+        for (double& v : p.velocity) v *= slower;
         const auto xy = draw(2, id), z = draw(3, id);
         const double unit[3] = {xy[0], xy[1], z[0]};
         for (std::size_t c = 0; c < d; ++c) {
@@ -56,11 +118,12 @@ std::vector<Particle> maxwellian(const Setup& setup, std::uint32_t count, double
                 to -= setup.walls.side[c][1].motion.amplitude;
             }
             p.place[c] = from + unit[c] * (to - from);
-            mean[c] += p.velocity[c];
+            mean[c] += ratio * p.velocity[c];
         }
         if (spin_temperature > 0) {
-            const double radius = 0.5 * setup.diameter;
-            const double speed = std::sqrt(spin_temperature / (setup.inertia * setup.mass * radius * radius));
+            const Kind kind = setup.kind(p.kind);
+            const double radius = 0.5 * kind.diameter;
+            const double speed = std::sqrt(spin_temperature / (setup.inertia * kind.mass * radius * radius));
             const auto w = normals(4, id);
             for (std::size_t c = 0; c < 3; ++c) p.spin[c] = speed * w[c];
             if (setup.dimension == 2) p.spin = {0, 0, speed * w[0]};
@@ -69,13 +132,15 @@ std::vector<Particle> maxwellian(const Setup& setup, std::uint32_t count, double
     double square = 0;
     for (Particle& p : particles)
         for (std::size_t c = 0; c < d; ++c) {
-            p.velocity[c] -= mean[c] / count;
-            square += p.velocity[c] * p.velocity[c];
+            p.velocity[c] -= mean[c] / masses;
+            square += mass_ratio[p.kind] * (p.velocity[c] * p.velocity[c]);
         }
     const double wanted = static_cast<double>(count) * static_cast<double>(d) * temperature / setup.mass;
     const double scale = square > 0 ? std::sqrt(wanted / square) : std::sqrt(temperature / setup.mass);
-    for (Particle& p : particles)
+    for (Particle& p : particles) {
         for (std::size_t c = 0; c < d; ++c) p.velocity[c] *= scale;
+        if (setup.shear != 0) p.velocity[0] += setup.flow(p.place[1]);
+    }
     return particles;
 }
 
@@ -102,11 +167,23 @@ Scales scales(const Setup& setup, std::size_t particles, double temperature) {
     if (setup.enskog && s.packing < 1) s.correlation = laws::contact_correlation(setup.dimension, s.packing);
     const double t = temperature / setup.mass, pi = std::numbers::pi;
     s.speed = std::sqrt((setup.dimension == 3 ? 8 / pi : pi / 2) * t);
-    const double relative = setup.dimension == 3 ? 4 * std::sqrt(t / pi) : std::sqrt(pi * t);
-    s.collision_rate = s.density * s.correlation * setup.cross_section() * relative;
+    double eps = laws::restitution(setup.restitution, 2 * std::sqrt(t)), loss = 1 - eps * eps;
+    if (setup.others.empty()) {
+        const double relative = setup.dimension == 3 ? 4 * std::sqrt(t / pi) : std::sqrt(pi * t);
+        s.collision_rate = s.density * s.correlation * setup.cross_section() * relative;
+    } else {
+        s.collision_rate = analysis::collision_rate(mixture_gas(setup, particles), temperature);
+        double speed = 0; // mean of the kinds
+        for (std::size_t k = 0; k < setup.kinds(); ++k)
+            speed += setup.kind(k).fraction * s.speed * std::sqrt(setup.mass / setup.kind(k).mass);
+        s.speed = speed;
+        for (const PairRestitution& p : setup.pairs) {
+            eps = laws::restitution(setup.restitution_of(p.first, p.second), 2 * std::sqrt(t));
+            loss = std::max(loss, 1 - eps * eps);
+        }
+    }
     s.free_path = s.collision_rate > 0 ? s.speed / s.collision_rate : std::numeric_limits<double>::infinity();
-    const double eps = laws::restitution(setup.restitution, 2 * std::sqrt(t));
-    s.cooling = s.collision_rate * (1 - eps * eps) / setup.dimension;
+    s.cooling = s.collision_rate * loss / setup.dimension;
     return s;
 }
 
@@ -129,7 +206,9 @@ std::vector<std::string> warnings(const Setup& setup, std::size_t particles, dou
     if (s.collision_rate * setup.dt > 0.2)
         found.push_back(fmt::format("{:.3g} collisions per particle and step, above 0.2: use dt <= {:.3g} s",
                                     s.collision_rate * setup.dt, 0.2 / s.collision_rate));
-    const double reach = (drift + 2 * std::sqrt(2 * temperature / setup.mass)) * setup.dt;
+    double lightest = setup.mass;
+    for (const Kind& k : setup.others) lightest = std::min(lightest, k.mass);
+    const double reach = (drift + 2 * std::sqrt(2 * temperature / lightest)) * setup.dt;
     if (shortest > 0 && 2 * reach > shortest)
         found.push_back(
             fmt::format("fast particles cross {:.2g} cells in a step, more than half of one: use dt "

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace sandlane::dsmc {
 
@@ -76,10 +77,18 @@ void Simulation::Scratch::require(std::size_t rows, bool rough) {
 Simulation::Simulation(const Setup& setup, const std::vector<Particle>& particles, simd::Isa isa, int threads)
     : setup_(setup), kernels_(&simd::dsmc_kernels(isa)), threads_(threads), size_(particles.size()) {
     setup_.walls.dimension = setup.dimension;
-    setup_.walls.radius = setup.rough ? 0.5 * setup.diameter : 0;
     setup_.walls.inertia = setup.inertia;
-    setup_.walls.spin_speed =
-        setup.rough ? 1 / std::sqrt(setup.inertia * 0.25 * setup.diameter * setup.diameter) : 0;
+    setup_.walls.shear = setup.shear;
+    for (std::size_t k = 0; k < setup.kinds(); ++k) {
+        const Kind kind = setup.kind(k);
+        simd::GasWallKind& wall = setup_.walls.kind[k];
+        wall.mass = kind.mass / setup.mass;
+        wall.speed = std::sqrt(setup.mass / kind.mass);
+        if (!setup.rough) continue;
+        wall.radius = 0.5 * kind.diameter;
+        wall.spin_speed = 1 / std::sqrt(setup.inertia * 0.25 * kind.diameter * kind.diameter);
+    }
+    mixture_ = mixture_of(setup);
     for (int d = 0; d < 3; ++d) {
         setup_.walls.lower[d] = setup.lower[d];
         setup_.walls.upper[d] = setup.upper[d];
@@ -135,6 +144,7 @@ void Simulation::place_particles(const std::vector<Particle>& particles) {
             if (row.spin != nullptr) row.spin[d] = p.spin[d];
             images |= (static_cast<std::uint64_t>(static_cast<std::int64_t>(p.image[d])) & 0xfffff) << 20 * d;
         }
+        images |= static_cast<std::uint64_t>(p.kind) << 60;
         const std::uint64_t word = static_cast<std::uint64_t>(number[i]) << 32 | p.id;
         std::memcpy(row.place + 3, &word, sizeof word);
         std::memcpy(row.velocity + 3, &images, sizeof images);
@@ -213,7 +223,25 @@ void Simulation::pass(Pass what) {
         fail(Exit::unstable, "step {}: {} (dt = {} s); use a smaller time step", step_,
              overflows > 0 ? "a cell wants more than a million collisions" : "velocities are not finite",
              dt_);
-    if (what.collide) square_sum_ = squares;
+    if (what.collide) {
+        square_sum_ = squares;
+        note_decisions();
+    }
+}
+
+// Kernels look at one candidate of many cells at a time; the order is that of cell after cell.
+void Simulation::note_decisions() {
+    for (auto& of_tile : heard_) {
+        std::sort(of_tile.begin(), of_tile.end(), [](const auto& a, const auto& b) {
+            return std::pair(a.cell, a.candidate) < std::pair(b.cell, b.candidate);
+        });
+        for (const simd::GasDecision& decision : of_tile) decisions_.push_back({step_, decision});
+        of_tile.clear();
+    }
+}
+
+std::vector<Decision> Simulation::take_decisions() {
+    return std::exchange(decisions_, {});
 }
 
 void Simulation::work_on(std::int32_t t, Pass what) {
@@ -304,17 +332,19 @@ std::int32_t Simulation::gather(std::int32_t t, Scratch& scratch) const {
     return kernels_->sort(view);
 }
 
-void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) const {
+void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) {
     simd::GasCollisionView view{};
     view.rows = scratch.sorted.view();
     view.start = scratch.start.data();
     view.first_cell = tiling_.first_cell(t);
     view.cells = tiling_.cells_per_tile();
-    for (int n = 0; n < 7; ++n) view.list[n] = scratch.lists[n].data();
+    for (int n = 0; n < simd::gas_lists; ++n) view.list[n] = scratch.lists[n].data();
     view.scheme = setup_.scheme;
     view.rate = 0.5 * setup_.weight * setup_.cross_section() * dt_ / setup_.cell_volume();
-    // Spins can make particles faster than any was.
-    view.margin = setup_.margin * (setup_.rough ? 1.2 : 1.0);
+    // Spins, or heavy partners, can make particles faster than any was.
+    const bool mixed = !setup_.others.empty();
+    view.margin = setup_.margin * (setup_.rough || mixed ? 1.2 : 1.0);
+    view.mixture = mixed ? &mixture_ : nullptr;
     view.packing = setup_.enskog ? setup_.weight * setup_.particle_volume() / setup_.cell_volume() : 0;
     view.restitution = setup_.restitution;
     view.tangential = setup_.tangential;
@@ -323,9 +353,20 @@ void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) const
     view.inertia = setup_.inertia;
     view.friction = setup_.friction;
     view.random = random();
-    const simd::DsmcKernels& kernels =
-        setup_.scheme == simd::GasScheme::no_time_counter ? *kernels_ : simd::dsmc_kernels(simd::Isa::scalar);
-    result.collisions = kernels.collide[setup_.dimension - 2][setup_.rough ? 1 : 0](view);
+    if (!heard_.empty())
+        view.listener = {[](void* to, const simd::GasDecision& decision) {
+                             static_cast<std::vector<simd::GasDecision>*>(to)->push_back(decision);
+                         },
+                         &heard_[static_cast<std::size_t>(t)]};
+    const bool maxwell = setup_.scheme == simd::GasScheme::maxwell;
+    if (maxwell) {
+        const double start =
+            setup_.mass * first_square_sum_ / (setup_.dimension * static_cast<double>(size_));
+        view.maxwell = 0.5 * dt_ * scales(setup_, size_, start).collision_rate;
+    }
+    const bool vector = maxwell || setup_.scheme == simd::GasScheme::no_time_counter;
+    const simd::DsmcKernels& kernels = vector ? *kernels_ : simd::dsmc_kernels(simd::Isa::scalar);
+    result.collisions = kernels.collide[setup_.dimension - 2][setup_.rough ? 1 : 0][mixed ? 1 : 0](view);
 }
 
 // Those that leave, by the tile they go to; the order is kept.

@@ -19,14 +19,21 @@ struct Counts {
     std::int64_t candidates = 0, collisions = 0, violations = 0, stuck = 0;
 };
 
-// Sums over all particles, in the order of their ids.
+struct Decision {
+    std::int64_t step;
+    simd::GasDecision of;
+};
+
+// Sums over all particles, in the order of their ids, without the flow of a sheared gas.
 struct Observables {
     double temperature = 0;           // m <(v - u)^2>/d, J
     double spin_temperature = 0;      // J <w^2> per component, J; 0: smooth
     double energy = 0;                // kinetic, of translation and spin, of all real particles, J
-    double fourth = 0;                // a2 = <c^4> 4/(d (d + 2)) - 1 of the scaled velocities c
+    double fourth = 0;                // a2 = <c^4> 4/(d (d + 2)) - 1 of c = v sqrt(m/2T)
     std::array<double, 3> drift{};    // u, m/s
     double directions[3] = {0, 0, 0}; // m <(v - u)^2> of each component, J
+    std::vector<double> of_kind;      // temperature of each kind, J
+    double shear_stress = 0;          // -p_xy of the flights, Pa; N/m in the plane
 };
 
 class Simulation {
@@ -39,6 +46,10 @@ public:
     void run(std::int64_t steps, double until = std::numeric_limits<double>::infinity());
     // Goes on with the kernels of another instruction set.
     void use(simd::Isa isa) { kernels_ = &simd::dsmc_kernels(isa); }
+
+    // From now on: what became of every candidate, by step, cell and candidate.
+    void keep_decisions() { heard_.resize(tiles_.size()); }
+    [[nodiscard]] std::vector<Decision> take_decisions(); // since the last call
 
     [[nodiscard]] std::int64_t step() const { return step_; }
     [[nodiscard]] double time() const { return time_; }
@@ -82,7 +93,7 @@ private:
     struct alignas(column_alignment) Scratch {
         Rows sorted, leaving;
         Column<std::int32_t> start, next[2], slot, targets;
-        Column<double> lists[7];
+        Column<double> lists[simd::gas_lists];
         std::vector<simd::GasSegment> segments;
         void require(std::size_t rows, bool rough);
     };
@@ -100,7 +111,8 @@ private:
     void pass(Pass what);
     void work_on(std::int32_t tile, Pass what);
     [[nodiscard]] std::int32_t gather(std::int32_t tile, Scratch& scratch) const;
-    void collide(std::int32_t tile, Scratch& scratch, Result& result) const;
+    void collide(std::int32_t tile, Scratch& scratch, Result& result);
+    void note_decisions();
     void send(std::int32_t tile, Scratch& scratch, Result& result);
     [[nodiscard]] simd::GasFlightView flight_view(Pass what) const;
     void choose_next_dt();
@@ -109,6 +121,7 @@ private:
     template <class Body> void for_rows(const Body& body) const;
 
     Setup setup_;
+    simd::GasMixture mixture_;
     Tiling tiling_;
     const simd::DsmcKernels* kernels_;
     int threads_;
@@ -126,6 +139,8 @@ private:
            first_square_sum_ = 0; // of the velocities after the last collisions, at the start
     Counts counts_;
     double wall_energy_ = 0;
+    std::vector<std::vector<simd::GasDecision>> heard_; // of this step, by tile; empty: nobody listens
+    std::vector<Decision> decisions_;
 };
 
 } // namespace sandlane::dsmc

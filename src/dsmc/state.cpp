@@ -30,6 +30,7 @@ std::vector<Particle> Simulation::particles() const {
         std::memcpy(&word, place + 3, sizeof word);
         std::memcpy(&images, velocity + 3, sizeof images);
         p.id = static_cast<std::uint32_t>(word);
+        p.kind = static_cast<std::uint32_t>(images >> 60);
         for (std::size_t d = 0; d < 3; ++d) {
             p.place[d] = place[d];
             p.velocity[d] = velocity[d];
@@ -45,31 +46,48 @@ std::vector<Particle> Simulation::particles() const {
 
 Observables Simulation::observe() const {
     Observables o;
-    const std::vector<Particle> all = particles();
+    std::vector<Particle> all = particles();
+    if (setup_.shear != 0) // velocities relative to the flow
+        for (Particle& p : all) p.velocity[0] -= setup_.flow(p.place[1]);
     if (all.empty()) return o;
     const auto n = static_cast<double>(all.size());
     const auto d = static_cast<std::size_t>(setup_.dimension);
-    for (const Particle& p : all)
-        for (std::size_t c = 0; c < d; ++c) o.drift[c] += p.velocity[c] / n;
+    std::vector<double> mass, inertia, count(setup_.kinds(), 0.0);
+    for (std::size_t k = 0; k < setup_.kinds(); ++k) {
+        const Kind kind = setup_.kind(k);
+        mass.push_back(kind.mass);
+        inertia.push_back(setup_.inertia * kind.mass * 0.25 * kind.diameter * kind.diameter);
+    }
+    double masses = 0;
+    for (const Particle& p : all) {
+        masses += mass[p.kind];
+        for (std::size_t c = 0; c < d; ++c) o.drift[c] += mass[p.kind] * p.velocity[c];
+    }
+    for (double& u : o.drift) u /= masses;
+    const auto dimension = static_cast<double>(setup_.dimension);
     double fourth = 0, spins = 0, squares = 0;
+    o.of_kind.assign(setup_.kinds(), 0.0);
     for (const Particle& p : all) {
         double square = 0;
         for (std::size_t c = 0; c < d; ++c) {
             const double v = p.velocity[c] - o.drift[c];
-            o.directions[c] += setup_.mass * v * v / n;
-            square += v * v;
-            squares += p.velocity[c] * p.velocity[c];
+            o.directions[c] += mass[p.kind] * v * v / n;
+            square += mass[p.kind] * v * v;
+            squares += mass[p.kind] * p.velocity[c] * p.velocity[c];
         }
+        o.shear_stress -= mass[p.kind] * (p.velocity[0] - o.drift[0]) * (p.velocity[1] - o.drift[1]);
         fourth += square * square / n;
-        for (const double w : p.spin) spins += w * w;
+        o.of_kind[p.kind] += square / dimension;
+        count[p.kind] += 1;
+        for (const double w : p.spin) spins += inertia[p.kind] * w * w;
     }
-    const auto dimension = static_cast<double>(setup_.dimension);
     for (std::size_t c = 0; c < d; ++c) o.temperature += o.directions[c] / dimension;
-    const double variance = o.temperature / setup_.mass;
-    o.fourth = variance > 0 ? fourth / (dimension * (dimension + 2) * variance * variance) - 1 : 0;
-    const double inertia = setup_.inertia * setup_.mass * 0.25 * setup_.diameter * setup_.diameter;
-    if (setup_.rough) o.spin_temperature = inertia * spins / n / (setup_.dimension == 3 ? 3 : 1);
-    o.energy = 0.5 * setup_.weight * (setup_.mass * squares + (setup_.rough ? inertia * spins : 0));
+    for (std::size_t k = 0; k < count.size(); ++k) o.of_kind[k] /= std::max(count[k], 1.0);
+    if (o.temperature > 0)
+        o.fourth = fourth / (dimension * (dimension + 2) * o.temperature * o.temperature) - 1;
+    if (setup_.rough) o.spin_temperature = spins / n / (setup_.dimension == 3 ? 3 : 1);
+    o.shear_stress *= setup_.weight / setup_.volume();
+    o.energy = 0.5 * setup_.weight * (squares + (setup_.rough ? spins : 0));
     return o;
 }
 
@@ -77,6 +95,7 @@ Hash128 Simulation::state_hash() const {
     ByteWriter out;
     for (const Particle& p : particles()) {
         out.put(p.id);
+        if (!setup_.others.empty()) out.put(p.kind);
         for (std::size_t d = 0; d < 3; ++d) {
             out.put(p.place[d]);
             out.put(p.velocity[d]);
@@ -91,10 +110,16 @@ Hash128 Simulation::state_hash() const {
 std::string Simulation::frame() const {
     ByteWriter out;
     out.put(setup_.dt);
+    out.put(setup_.shear);
     for (int d = 0; d < setup_.dimension; ++d) {
         out.put(setup_.cells[d]);
         out.put(setup_.lower[d]);
         out.put(setup_.upper[d]);
+    }
+    for (const Kind& k : setup_.others) {
+        out.put(k.mass);
+        out.put(k.diameter);
+        out.put(k.fraction);
     }
     return std::move(out).bytes();
 }

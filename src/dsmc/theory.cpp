@@ -10,8 +10,24 @@ analysis::HardGas gas_of(const Setup& setup, std::size_t particles) {
             setup.diameter,  setup.restitution, setup.kicks};
 }
 
+analysis::MixtureGas mixture_gas(const Setup& setup, std::size_t particles) {
+    analysis::MixtureGas gas;
+    gas.dimension = setup.dimension;
+    gas.dense = setup.enskog;
+    gas.kicks = setup.kicks;
+    const double density = static_cast<double>(particles) * setup.weight / setup.volume();
+    for (std::size_t i = 0; i < setup.kinds(); ++i) {
+        const Kind k = setup.kind(i);
+        gas.kinds.push_back({density * k.fraction, k.mass, k.diameter});
+        for (std::size_t j = 0; j < setup.kinds(); ++j)
+            gas.restitution.push_back(setup.restitution_of(i, j).eps);
+    }
+    return gas;
+}
+
 bool is_homogeneous(const Setup& setup) {
-    if (setup.rough) return false;
+    if (setup.rough || setup.shear != 0 || setup.scheme == simd::GasScheme::maxwell) return false;
+    if (!setup.others.empty() && setup.restitution.model != laws::Restitution::Model::constant) return false;
     for (int d = 0; d < setup.dimension; ++d)
         if (!setup.walls.periodic[d] || setup.gravity[d] != 0) return false;
     return true;
@@ -21,6 +37,11 @@ std::vector<double> cooling_curve(const Setup& setup, std::size_t particles, dou
                                   const std::vector<double>& times) {
     if (setup.rough) return std::vector<double>(times.size(), std::numeric_limits<double>::quiet_NaN());
     return analysis::cooling_curve(gas_of(setup, particles), temperature, times);
+}
+
+std::vector<double> kind_temperatures(const Setup& setup, std::size_t particles, double temperature,
+                                      double time) {
+    return analysis::cooling_curves(mixture_gas(setup, particles), temperature, {time}).front();
 }
 
 double adaptive_steps(const Setup& setup, std::size_t particles, double temperature, double duration) {

@@ -16,6 +16,10 @@ namespace {
 
 struct Particle {
     double *place, *velocity, *spin;
+
+    [[nodiscard]] const GasWallKind& kind(const GasWalls& walls) const {
+        return walls.kind[std::bit_cast<std::uint64_t>(velocity[3]) >> 60];
+    }
 };
 
 void advance(const GasFlightView& view, const Particle& p, double duration) {
@@ -66,13 +70,15 @@ Hit next_hit(const GasFlightView& view, const Particle& p, double now, double li
     return first;
 }
 
+// Per mass of the first kind.
 double kinetic(const Particle& p, const GasWalls& walls) {
     double sum = 0;
     for (int d = 0; d < 3; ++d) sum += 0.5 * p.velocity[d] * p.velocity[d];
-    const double inertia = walls.inertia * walls.radius * walls.radius;
-    if (walls.radius > 0)
+    const GasWallKind& kind = p.kind(walls);
+    const double inertia = walls.inertia * kind.radius * kind.radius;
+    if (kind.radius > 0)
         for (int d = 0; d < 3; ++d) sum += 0.5 * inertia * p.spin[d] * p.spin[d];
-    return sum;
+    return kind.mass * sum;
 }
 
 // The heated wall of the specification of event-driven dynamics, 7.4, draws (4 hit + block, id, step).
@@ -80,6 +86,8 @@ void emit(const GasFlightView& view, const Particle& p, const Hit& hit, double w
           std::uint32_t number) {
     const GasWalls& walls = *view.walls;
     const GasSide& side = walls.side[hit.axis][hit.upper];
+    const GasWallKind& kind = p.kind(walls);
+    const double speed = side.thermal_speed * kind.speed;
     std::uint32_t id = 0;
     std::memcpy(&id, p.place + 3, sizeof id);
     const auto draw = [&](std::uint32_t block) {
@@ -94,14 +102,13 @@ void emit(const GasFlightView& view, const Particle& p, const Hit& hit, double w
         p.velocity[hit.axis] = sign * (2 * wall_speed - sign * p.velocity[hit.axis]);
         return;
     }
-    p.velocity[hit.axis] = sign * (wall_speed + side.thermal_speed * laws::flux_speed(u));
+    p.velocity[hit.axis] = sign * (wall_speed + speed * laws::flux_speed(u));
     const auto [u1, w1] = draw(1);
     const auto along = laws::normal_pair(u1, w1);
     for (int d = 0, n = 0; d < walls.dimension; ++d)
-        if (d != hit.axis)
-            p.velocity[d] = side.velocity[d] + side.thermal_speed * along[static_cast<std::size_t>(n++)];
-    if (!(walls.radius > 0)) return;
-    const double spin = side.thermal_speed * walls.spin_speed;
+        if (d != hit.axis) p.velocity[d] = side.velocity[d] + speed * along[static_cast<std::size_t>(n++)];
+    if (!(kind.radius > 0)) return;
+    const double spin = side.thermal_speed * kind.spin_speed;
     const auto [u2, w2] = draw(2);
     const auto first = laws::normal_pair(u2, w2);
     if (walls.dimension == 2) {
@@ -118,7 +125,8 @@ void reflect(const GasFlightView& view, const Particle& p, const Hit& hit, doubl
     const GasWalls& walls = *view.walls;
     const GasSide& side = walls.side[hit.axis][hit.upper];
     const double sign = hit.upper == 0 ? 1 : -1;
-    if (!(walls.radius > 0) || side.eps_t == 1) {
+    const double radius = p.kind(walls).radius;
+    if (!(radius > 0) || side.eps_t == 1) {
         const double toward = sign * p.velocity[hit.axis] - wall_speed; // negative
         p.velocity[hit.axis] = sign * (wall_speed - side.eps_n * toward);
         return;
@@ -129,10 +137,10 @@ void reflect(const GasFlightView& view, const Particle& p, const Hit& hit, doubl
     const Vector<double> e{normal[0], normal[1], normal[2]};
     const Vector<double> relative{p.velocity[0] - wall[0], p.velocity[1] - wall[1], p.velocity[2] - wall[2]};
     const Vector<double> spin{p.spin[0], p.spin[1], p.spin[2]};
-    const Vector<double> g = relative - cross(walls.radius * spin, e);
+    const Vector<double> g = relative - cross(radius * spin, e);
     const Vector<double> push =
         laws::impulse(g, e, side.eps_n, side.eps_t, walls.inertia / (1 + walls.inertia));
-    const Vector<double> turn = (1 / (walls.inertia * walls.radius)) * cross(e, push);
+    const Vector<double> turn = (1 / (walls.inertia * radius)) * cross(e, push);
     p.velocity[0] += push.x, p.velocity[1] += push.y, p.velocity[2] += push.z;
     p.spin[0] -= turn.x, p.spin[1] -= turn.y, p.spin[2] -= turn.z;
 }
@@ -149,6 +157,15 @@ void count_image(double* velocity, int axis, int step) {
 
 void settle(const GasFlightView& view, const Particle& p, double now) {
     const GasWalls& walls = *view.walls;
+    if (walls.shear != 0) { // a box above or below has moved along x, and moves
+        const double height = walls.upper[1] - walls.lower[1];
+        const double turns = std::floor((p.place[1] - walls.lower[1]) / height);
+        if (turns != 0) {
+            const double speed = walls.shear * height;
+            p.place[0] -= turns * std::fmod(speed * now, walls.upper[0] - walls.lower[0]);
+            p.velocity[0] -= turns * speed;
+        }
+    }
     for (int d = 0; d < walls.dimension; ++d) {
         const double lower = walls.lower[d], upper = walls.upper[d], period = upper - lower;
         if (walls.periodic[d]) {
@@ -189,7 +206,7 @@ void fly_to_walls(const GasFlightView& view, double* place, double* velocity, do
     const auto height = [&] {
         double sum = 0;
         for (int d = 0; d < walls.dimension; ++d) sum += view.gravity[d] * p.place[d];
-        return view.falls ? sum : 0.0;
+        return view.falls ? p.kind(walls).mass * sum : 0.0;
     };
     bool met = false;
     const double start = height();

@@ -18,14 +18,22 @@ struct GasSide {
     [[nodiscard]] bool moves() const { return motion.amplitude > 0; }
 };
 
+// Of the particles of one kind; speed and mass over those of the first.
+struct GasWallKind {
+    double mass = 1, speed = 1; // thermal at one temperature
+    double radius = 0;          // rough particles; 0: smooth
+    double spin_speed = 0;      // heated walls: sqrt(T_w/J) = thermal_speed * spin_speed
+};
+
 struct GasWalls {
     GasSide side[3][2]; // lower, upper
     bool periodic[3] = {true, true, true};
     double lower[3], upper[3];
     int dimension = 3;
-    double radius = 0, inertia = 0.4; // rough particles: J = inertia m radius^2; radius 0: smooth
-    double spin_speed = 0;            // heated walls: sqrt(T_w/J) = thermal_speed * spin_speed
-    double time[2] = {0, 0};          // at the start of the first and of the second flight, s
+    double shear = 0;     // Lees-Edwards: d u_x/d y, the boxes above and below move along x
+    double inertia = 0.4; // rough particles: J = inertia m radius^2
+    GasWallKind kind[most_kinds];
+    double time[2] = {0, 0}; // at the start of the first and of the second flight, s
 };
 
 // Most hits of one particle in one flight.

@@ -74,4 +74,12 @@ template <class R> SANDLANE_INLINE R contact_correlation(int dimension, const R&
     return (R(1.0) - R(7.0 / 16) * fluid) / (free * free);
 }
 
+// The same for pairs of a mixture, Mansoori et al. in space, Jenkins and Mancini in the plane: g_ij =
+// contact_of_pair(d, S_ij h)/(1 - x_d) with h = x_{d-1}/(1 - x_d), S_ij = s_i s_j/(s_i + s_j) and x_k the sum
+// of the k-th powers of the diameters in a volume times pi/6, pi/4 in the plane; x_d is the packing fraction.
+template <class R> SANDLANE_INLINE R contact_of_pair(int dimension, const R& y) {
+    if (dimension == 3) return R(1.0) + y * (R(3.0) + R(2.0) * y);
+    return R(1.0) + R(9.0 / 8) * y;
+}
+
 } // namespace sandlane::laws

@@ -40,4 +40,15 @@ template <class R> SANDLANE_INLINE R restitution(const Restitution& law, const R
     return R(1.0) - R(1.0 - law.eps) * part;
 }
 
+// The same where each pair of kinds has a coefficient of its own, the model in common: eps, or the root of
+// the dissipation of viscoelastic spheres.
+template <class R>
+SANDLANE_INLINE R restitution_of_pair(const Restitution& law, const R& coefficient, const R& g) {
+    if (law.model == Restitution::Model::constant) return coefficient;
+    if (law.model == Restitution::Model::viscoelastic)
+        return viscoelastic_approximant(coefficient * power(g, R(0.1)));
+    const R part = min(power(g * R(1.0 / law.speed), R(law.power)), R(1.0));
+    return R(1.0) - (R(1.0) - coefficient) * part;
+}
+
 } // namespace sandlane::laws

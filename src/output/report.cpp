@@ -86,9 +86,13 @@ std::string summary_rows(const ReportInput& input) {
 std::string figures(const ReportInput& input) {
     std::string text;
     for (const Figure& f : input.figures)
-        text += fmt::format("<figure class=\"card\"><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
-                            "<figcaption>{0}</figcaption></figure>",
-                            html_text(f.caption), base64(f.png));
+        if (!f.svg.empty())
+            text += fmt::format("<figure class=\"card\">{}<figcaption>{}</figcaption></figure>", f.svg,
+                                html_text(f.caption));
+        else
+            text += fmt::format("<figure class=\"card\"><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
+                                "<figcaption>{0}</figcaption></figure>",
+                                html_text(f.caption), base64(f.png));
     return text;
 }
 

@@ -15,6 +15,7 @@ namespace sandlane::output {
 // A picture in the report.
 struct Figure {
     std::string caption, png; // bytes
+    std::string svg = {};     // instead of them
 };
 
 struct ReportInput {

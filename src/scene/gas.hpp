@@ -50,7 +50,8 @@ enum class CollisionScheme {
     direction_first,
     nanbu_babovsky,
     majorant_frequency,
-    bernoulli
+    bernoulli,
+    maxwell
 };
 
 struct Dsmc {
@@ -64,12 +65,21 @@ struct Dsmc {
     double sample_every = 0, sample_start = 0; // s
     GasAxis profile_axis = GasAxis::x;
     std::int64_t profile_bins = 0; // 0: the cells along it
+    double structure_every = 0;    // s; 0: never
+    double cluster_reach = 1.2;
 };
 
 // Hard particles of another size or mass beside those of the gas.
 struct Species {
     std::int64_t particles = 0;
     double mass = 1, diameter = 1; // kg, m
+};
+
+// Restitution of two kinds: 0 are the particles of [gas], n those of the n-th [[species]].
+struct GasPair {
+    std::array<std::int64_t, 2> between{};
+    double restitution = 1; // as that of the gas, where the model has one
+    double dissipation = 0; // viscoelastic
 };
 
 enum class EventAlgorithm { automatic, improved, simple };
@@ -84,6 +94,8 @@ struct Edmd {
     double sample_every = 0, sample_start = 0; // s
     GasAxis profile_axis = GasAxis::x;
     std::int64_t profile_bins = 20;
+    double structure_every = 0; // s; 0: never
+    double cluster_reach = 1.2;
 };
 
 } // namespace sandlane::scene

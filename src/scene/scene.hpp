@@ -268,6 +268,7 @@ struct Scene {
     std::vector<GasSide> sides;
     Dsmc dsmc;
     std::vector<Species> species;
+    std::vector<GasPair> gas_pairs;
     Edmd edmd;
     std::vector<AnalysisSpec> analyses;
     Output output;

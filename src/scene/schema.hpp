@@ -122,6 +122,7 @@ const Table<Gas>& gas_table();
 const Table<GasSide>& side_table();
 const Table<Dsmc>& dsmc_table();
 const Table<Species>& species_table();
+const Table<GasPair>& gas_pair_table();
 const Table<Edmd>& edmd_table();
 const Table<AnalysisSpec>& analysis_table();
 const Table<Output>& output_table();

@@ -19,6 +19,16 @@ std::string write_cells(const Dsmc& d, std::int64_t dimension) {
     return joined(counts);
 }
 
+void read_between(GasPair& p, const Value& v, const std::string& path, std::int64_t) {
+    if (v.kind != Value::Kind::array || v.items.size() != 2)
+        fail_at(v, path, "must be [kind, kind], numbers: 0 is [gas], 1 the first of [[species]]");
+    for (std::size_t n = 0; n < 2; ++n) p.between[n] = read_integer(v.items[n], path, between(0, 65000));
+}
+
+std::string write_between(const GasPair& p, std::int64_t) {
+    return fmt::format("[{}, {}]", p.between[0], p.between[1]);
+}
+
 } // namespace
 
 const Table<Gas>& gas_table() {
@@ -87,10 +97,13 @@ const Table<Dsmc>& dsmc_table() {
                  "cells; 0: as many as are at most a third of the mean free path long, but not fewer than 10 "
                  "particles each; 1 in directions in which the gas is uniform",
                  false, read_cells, write_cells, "[columns, rows, layers]"})
-            .choice(
-                "scheme", &Dsmc::scheme,
-                {"no-time-counter", "direction-first", "nanbu-babovsky", "majorant-frequency", "bernoulli"},
-                "how pairs are chosen; all but the first are oracles without vector kernels")
+            .choice("scheme", &Dsmc::scheme,
+                    {"no-time-counter", "direction-first", "nanbu-babovsky", "majorant-frequency",
+                     "bernoulli", "maxwell"},
+                    "how pairs are chosen. Those after the first are oracles without vector kernels; but "
+                    "\"maxwell\" "
+                    "lets all pairs collide at the rate of the start, whatever their speed: a gas with exact "
+                    "solutions")
             .flag("enskog", &Dsmc::enskog,
                   "more collisions by the pair correlation at contact of the cell's density")
             .number("dt", &Dsmc::dt, Unit::time, not_negative(),
@@ -106,7 +119,13 @@ const Table<Dsmc>& dsmc_table() {
                     "frames before it are left out")
             .choice("profile_axis", &Dsmc::profile_axis, {"x", "y", "z"},
                     "axis across the bins of profile.csv")
-            .integer("profile_bins", &Dsmc::profile_bins, between(0, 100000), "0: the cells along it");
+            .integer("profile_bins", &Dsmc::profile_bins, between(0, 100000), "0: the cells along it")
+            .number("structure_every", &Dsmc::structure_every, Unit::time, any,
+                    "frames of structure.csv, clusters.csv and cluster_sizes.csv: spectra of density and "
+                    "transverse momentum, clusters; 0 or negative: none")
+            .number("cluster_reach", &Dsmc::cluster_reach, Unit::none, between(1, 100),
+                    "particles closer than this times the sum of their radii are of one cluster; a simulated "
+                    "one is as large as all that it stands for");
     return table;
 }
 
@@ -119,6 +138,20 @@ const Table<Species>& species_table() {
             .required()
             .number("mass", &Species::mass, Unit::mass, positive(), "of one")
             .number("diameter", &Species::diameter, Unit::length, positive(), "of one");
+    return table;
+}
+
+const Table<GasPair>& gas_pair_table() {
+    static const Table<GasPair> table =
+        Table<GasPair>("Restitution of two kinds of particles where it is not that of [gas].")
+            .custom({"between", "[kind, kind]", "", "0 or more",
+                     "0: the particles of [gas]; 1 and so on: those of [[species]], in their order", false,
+                     read_between, write_between})
+            .required()
+            .number("restitution", &GasPair::restitution, Unit::none, between(0, 1),
+                    "as that of [gas]; constant and saturating models")
+            .number("dissipation", &GasPair::dissipation, Unit::none, not_negative(),
+                    "as that of [gas]; viscoelastic model");
     return table;
 }
 
@@ -150,7 +183,13 @@ const Table<Edmd>& edmd_table() {
                     "frames before it are left out")
             .choice("profile_axis", &Edmd::profile_axis, {"x", "y", "z"},
                     "axis across the bins of profile.csv")
-            .integer("profile_bins", &Edmd::profile_bins, between(1, 100000), "of profile.csv");
+            .integer("profile_bins", &Edmd::profile_bins, between(1, 100000), "of profile.csv")
+            .number("structure_every", &Edmd::structure_every, Unit::time, any,
+                    "frames of structure.csv, clusters.csv and cluster_sizes.csv: spectra of density and "
+                    "transverse momentum, clusters; 0 or negative: none")
+            .number("cluster_reach", &Edmd::cluster_reach, Unit::none, between(1, 100),
+                    "particles closer than this times the sum of their radii are of one cluster; a simulated "
+                    "one is as large as all that it stands for");
     return table;
 }
 

@@ -5,6 +5,7 @@
 #include "scene/space.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -32,8 +33,27 @@ struct GasValidator {
                        "is {} m",
                        axis.name, length);
         }
-        if (d.shear_rate != 0)
-            reject("domain.shear_rate = {}: is not known to this method; use 0", d.shear_rate);
+    }
+
+    void refuse_shear() const {
+        if (scene.domain.shear_rate != 0)
+            reject("domain.shear_rate = {}: is not known to this method; use 0", scene.domain.shear_rate);
+    }
+    void check_shear() const {
+        const Domain& d = scene.domain;
+        if (d.shear_rate == 0) return;
+        if (!std::isfinite(d.shear_rate)) reject("domain.shear_rate: {} is no number", d.shear_rate);
+        if (!d.periodic[0] || !d.periodic[1])
+            reject(
+                "domain.shear_rate: {} needs periodic = [\"x\", \"y\"]: the flow is along x and its images "
+                "along y",
+                d.shear_rate);
+        if (d.gravity.x != 0 || d.gravity.y != 0)
+            reject("domain.shear_rate: {} and gravity along x or y: a sheared box would fall; leave out one",
+                   d.shear_rate);
+        if (scene.dsmc.adaptive)
+            reject(
+                "dsmc.adaptive: a sheared gas does not cool down; leave out adaptive or domain.shear_rate");
     }
 
     // most: largest packing fraction that the method can do, and why.
@@ -44,7 +64,7 @@ struct GasValidator {
         double packing = static_cast<double>(gas.particles) * gas.weight *
                          grain_content(0.5 * gas.diameter, scene.domain.dimension) / volume;
         for (const Species& more : scene.species)
-            packing += static_cast<double>(more.particles) *
+            packing += static_cast<double>(more.particles) * gas.weight *
                        grain_content(0.5 * more.diameter, scene.domain.dimension) / volume;
         if (packing > most)
             reject(
@@ -98,6 +118,8 @@ struct GasValidator {
         if (side.velocity.*direction.component != 0)
             reject("sides[{}].velocity: its {} component must be 0; a wall moves along itself", n,
                    direction.name);
+        unused(side.amplitude == 0 && side.frequency == 0 && side.phase != 0, "phase",
+               "the wall does not oscillate");
         if ((side.amplitude > 0) != (side.frequency > 0))
             reject("sides[{}]: an oscillation needs both amplitude and frequency above 0", n);
         const double length =
@@ -115,8 +137,43 @@ struct GasValidator {
         if (cells > 1e9) reject("dsmc.cells: {:.4g} cells; allowed: up to 1e9", cells);
         if (static_cast<std::int64_t>(d.profile_axis) >= scene.domain.dimension)
             reject("dsmc.profile_axis: a plane has no z axis");
+        if (d.scheme == CollisionScheme::maxwell && !scene.species.empty())
+            reject("dsmc.scheme = \"maxwell\": knows one kind of particles; leave out [[species]]");
         if (d.adaptive && d.heating > 0)
             reject("dsmc.adaptive: a heated gas does not cool down; leave out adaptive or heating");
+    }
+
+    // What only some methods can do with several kinds of particles.
+    void check_mixture(std::size_t most_kinds) const {
+        if (scene.species.size() + 1 > most_kinds)
+            reject("species: {} of them; allowed: up to {} with this method", scene.species.size(),
+                   most_kinds - 1);
+        double count = static_cast<double>(scene.gas.particles);
+        for (const Species& more : scene.species) count += static_cast<double>(more.particles);
+        if (count > 2e9) reject("gas.particles: {:.4g} with all species; allowed: up to 2e9", count);
+        const auto kinds = static_cast<std::int64_t>(scene.species.size()) + 1;
+        for (std::size_t n = 0; n < scene.gas_pairs.size(); ++n) {
+            const GasPair& pair = scene.gas_pairs[n];
+            for (const std::int64_t kind : pair.between)
+                if (kind >= kinds)
+                    reject("gas_pairs[{}].between: kind {}; allowed: 0 to {}, 0 is [gas] and the others are "
+                           "[[species]]",
+                           n, kind, kinds - 1);
+            for (std::size_t other = 0; other < n; ++other) {
+                const auto& before = scene.gas_pairs[other].between;
+                if (before == pair.between || before == std::array{pair.between[1], pair.between[0]})
+                    reject("gas_pairs[{}].between: gas_pairs[{}] is the same pair", n, other);
+            }
+            const bool viscoelastic = scene.gas.model == RestitutionModel::viscoelastic;
+            if (viscoelastic && pair.restitution != 1)
+                reject("gas_pairs[{}].restitution: has no effect here, the gas is viscoelastic; give "
+                       "dissipation",
+                       n);
+            if (!viscoelastic && pair.dissipation != 0)
+                reject("gas_pairs[{}].dissipation: has no effect here, the gas is not viscoelastic; give "
+                       "restitution",
+                       n);
+        }
     }
 
     void check_edmd() const {
@@ -161,6 +218,7 @@ struct GasValidator {
 void validate_edmd(const Scene& scene, const std::string& file) {
     const GasValidator v{scene, file};
     v.check_domain();
+    v.refuse_shear();
     v.check_gas(scene.domain.dimension == 3 ? 0.7405 : 0.9069, "the closest packing");
     for (std::size_t n = 0; n < scene.sides.size(); ++n) v.check_side(n);
     v.check_edmd();
@@ -172,6 +230,8 @@ void validate_dsmc(const Scene& scene, const std::string& file) {
     // Beyond freezing there is no fluid that the contact values were made for.
     v.check_gas(laws::freezing_fraction[scene.domain.dimension - 2], "where the fluid freezes");
     for (std::size_t n = 0; n < scene.sides.size(); ++n) v.check_side(n);
+    v.check_shear();
+    v.check_mixture(16);
     v.check_dsmc();
 }
 

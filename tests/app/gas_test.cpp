@@ -66,6 +66,23 @@ TEST_F(Gas, AdaptiveRunsEndAtTheirTime) {
     EXPECT_NEAR(std::stod(last), 20, 0.1); // the longest step
 }
 
+TEST_F(Gas, StructureOnDemand) {
+    write("gas.toml", gas_scene);
+    const std::vector<std::string> set = {"--set", "dsmc.structure_every=2"};
+    run_well({"run", "gas.toml", "--quiet", "--out", "whole", set[0], set[1]});
+    const std::string clusters = read("whole/clusters.csv");
+    EXPECT_EQ(std::count(clusters.begin(), clusters.end(), '\n'), 12); // header, start, ten
+    EXPECT_SAYS(read("whole/structure.csv"), "k[1/m],structure_factor[1]");
+    EXPECT_SAYS(read("whole/cluster_sizes.csv"), "clusters[1]");
+    const std::string report = read("whole/report.html");
+    for (const char* caption : {"Structure factor S(k)", "largest cluster", "Mean density along x", "<svg"})
+        EXPECT_SAYS(report, caption);
+    run_well({"run", "gas.toml", "--quiet", "--out", "part", "--steps", "77", set[0], set[1]});
+    run_well({"run", "--resume", latest_checkpoint("part"), "--quiet"});
+    for (const char* file : {"clusters.csv", "structure.csv", "cluster_sizes.csv"})
+        EXPECT_EQ(read(std::string("part/") + file), read(std::string("whole/") + file)) << file;
+}
+
 TEST_F(Gas, PicturesAndTrajectoriesOnDemand) {
     write("gas.toml", gas_scene);
     run_well({"run", "gas.toml", "--quiet", "--set", "output.picture_every=10", "--set",
@@ -79,13 +96,42 @@ TEST_F(Gas, PicturesAndTrajectoriesOnDemand) {
 
 TEST_F(Gas, ComparesBitForBit) {
     write("gas.toml", gas_scene);
-    for (const char* change :
-         {"seed=2", "gas.tangential_restitution=0.3", "gas.model=saturating", "dsmc.adaptive=true",
-          "dsmc.heating=0.01", "dsmc.scheme=direction-first", "domain.gravity=[0,0,-0.1]"}) {
+    for (const char* change : {"seed=2", "gas.tangential_restitution=0.3", "gas.model=saturating",
+                               "dsmc.adaptive=true", "dsmc.heating=0.01", "dsmc.scheme=direction-first",
+                               "dsmc.scheme=maxwell", "domain.shear_rate=0.1", "domain.gravity=[0,0,-0.1]"}) {
         const Outcome o = run_well({"compare", "gas.toml", "--steps", "20", "--set", change});
         EXPECT_SAYS(o.out, "identical, bit for bit");
         EXPECT_SAYS(o.out, "velocity z");
+        EXPECT_SAYS(o.out, "of them, the same");
     }
+}
+
+// Kinds of particles: temperatures of each, the same bits, a checkpoint.
+TEST_F(Gas, Mixtures) {
+    const std::string more = "[[species]]\nparticles = 2000\nmass = 3\ndiameter = 1.5\n\n[[gas_pairs]]\n"
+                             "between = [1, 0]\nrestitution = 0.6\n\n[dsmc]";
+    write("gas.toml", replaced(gas_scene, "[dsmc]", more));
+    EXPECT_SAYS(run_well({"check", "gas.toml"}).out, "6000 of 2 kinds");
+    EXPECT_SAYS(run_well({"compare", "gas.toml", "--steps", "20", "--set", "dsmc.enskog=true"}).out,
+                "identical, bit for bit");
+    run_well({"run", "gas.toml", "--quiet", "--out", "whole"});
+    EXPECT_SAYS(read("whole/log.csv"), "temperature_0[J],temperature_1[J]");
+    run_well({"run", "gas.toml", "--quiet", "--out", "part", "--steps", "77"});
+    run_well({"run", "--resume", latest_checkpoint("part"), "--quiet"});
+    EXPECT_EQ(read("part/log.csv"), read("whole/log.csv"));
+    const auto refused = [&](const std::string& pairs, const char* says) {
+        write("bad.toml", replaced(gas_scene, "[dsmc]", pairs + "\n[dsmc]"));
+        const Outcome o = run({"check", "bad.toml"});
+        EXPECT_EQ(o.code, code_of(Exit::invalid_input)) << pairs;
+        EXPECT_SAYS(o.err, says);
+    };
+    refused("[[gas_pairs]]\nbetween = [0, 1]\nrestitution = 0.6", "kind 1; allowed: 0 to 0");
+    refused("[[gas_pairs]]\nbetween = [0]", "[kind, kind]");
+    refused("[[gas_pairs]]\nbetween = [0, 0]\ndissipation = 1", "not viscoelastic");
+    refused("[[gas_pairs]]\nbetween = [0, 0]\n[[gas_pairs]]\nbetween = [0, 0]", "the same pair");
+    std::string many;
+    for (int n = 0; n < 16; ++n) many += "[[species]]\nparticles = 1\n";
+    refused(many, "up to 15");
 }
 
 TEST_F(Gas, GoesOnAfterACheckpoint) {
@@ -142,8 +188,15 @@ TEST_F(Gas, Refuses) {
         {"upper = [8, 8, 8]", "upper = [8, 8, 0]", {"domain", "above lower", "z"}},
         {"dt = 0.1", "dt = -0.1", {"dsmc.dt", "-0.1"}},
         {"restitution = 0.9", "friction = 0.9", {"gas.friction", "smooth"}},
+        {"periodic = [\"x\", \"y\"]",
+         "periodic = [\"x\"]\nshear_rate = 1",
+         {"domain.shear_rate", "needs periodic"}},
+
         {"restitution = 0.9", "model = \"viscoelastic\"", {"gas.dissipation", "needs it"}},
         {"duration = 20", "duration = 20\nadaptive = true\nheating = 1", {"dsmc.adaptive", "heat"}},
+        {"temperature = 1\n\n[dsmc]",
+         "temperature = 1\nphase = 1\n\n[dsmc]",
+         {"sides[0].phase", "oscillate"}},
         {"temperature = 1\n\n[dsmc]", "temperature = 1\namplitude = 1\n\n[dsmc]", {"sides[0]", "frequency"}},
     };
     for (const Bad& bad : bads) {

@@ -51,6 +51,34 @@ std::vector<Case> cases() {
     s.kicks = 0.02;
     s.dt = 0.3;
     add("walls", s, 6000);
+    s = test::gas(3, 0.9, 6000, 12);
+    s.others = {{0.1, 0.6, 0.3}, {5, 1.7, 0.2}};
+    s.pairs = {{0, 1, 0.7, 0}, {2, 2, 0.5, 0}};
+    s.enskog = true;
+    s.kicks = 0.01;
+    add("mixture", s, 6000);
+    s = test::gas(2, 0.9, 4000, 20);
+    s.others = {{3, 1.4, 0.4}};
+    s.restitution.model = laws::Restitution::Model::viscoelastic;
+    s.restitution.dissipation = 0.05;
+    s.pairs = {{0, 1, 1, 0.2}};
+    s.rough = true;
+    s.tangential = -0.4;
+    s.friction = 0.3;
+    s.enskog = true;
+    s.walls.periodic[1] = false;
+    s.walls.side[1][0].kind = simd::GasSide::Kind::heated;
+    s.walls.side[1][0].thermal_speed = 1.2;
+    s.walls.side[1][1].eps_n = 0.9;
+    s.walls.side[1][1].eps_t = 0.2;
+    s.gravity[1] = -0.1;
+    add("rough_mixture", s, 4000);
+    s = test::gas(3, 0.9, 6000, 12);
+    s.shear = 0.3;
+    add("shear", s, 6000);
+    s = test::gas(2, 0.9, 5000, 30);
+    s.scheme = simd::GasScheme::maxwell;
+    add("maxwell", s, 5000);
     s = test::gas(3, 0.9, 900, 30); // hardly any particles
     s.cells[1] = 1;
     s.dt = 20; // far beyond a tile
@@ -76,6 +104,36 @@ TEST(Bits, EveryInstructionSetAndThreadCount) {
                 EXPECT_EQ(other.counts().violations, reference.counts().violations) << c.name;
                 EXPECT_EQ(other.wall_energy(), reference.wall_energy()) << c.name;
             }
+    }
+}
+
+// Which pairs are looked at and which collide: the same decisions in the same order.
+TEST(Bits, Decisions) {
+    for (const Case& c : cases()) {
+        const auto start = dsmc::maxwellian(c.setup, c.particles, 1, c.setup.rough ? 0.5 : 0);
+        dsmc::Simulation reference(c.setup, start, simd::Isa::scalar, 1);
+        reference.keep_decisions();
+        reference.run(4);
+        const auto expected = reference.take_decisions();
+        EXPECT_TRUE(reference.take_decisions().empty());
+        ASSERT_EQ(static_cast<std::int64_t>(expected.size()), reference.counts().candidates) << c.name;
+        std::int64_t accepted = 0;
+        for (const auto& d : expected) accepted += d.of.accepted ? 1 : 0;
+        EXPECT_EQ(accepted, reference.counts().collisions) << c.name;
+        for (const simd::Isa isa : simd::available_isas()) {
+            dsmc::Simulation other(c.setup, start, isa, 2);
+            other.keep_decisions();
+            other.run(4);
+            const auto found = other.take_decisions();
+            ASSERT_EQ(found.size(), expected.size()) << c.name;
+            for (std::size_t n = 0; n < found.size(); ++n) {
+                const simd::GasDecision &a = found[n].of, &b = expected[n].of;
+                ASSERT_TRUE(found[n].step == expected[n].step && a.cell == b.cell &&
+                            a.candidate == b.candidate && a.first == b.first && a.second == b.second &&
+                            a.accepted == b.accepted)
+                    << c.name << " " << simd::isa_name(isa) << " " << n;
+            }
+        }
     }
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 // A tile of equal cells with rows that a test fills.
 struct Tile {
-    std::vector<double> place, velocity, spin, lists[7];
+    std::vector<double> place, velocity, spin, lists[simd::gas_lists];
     std::vector<std::int32_t> start;
     simd::GasCollisionView view{};
 
@@ -25,7 +25,7 @@ struct Tile {
         view.rows = {place.data(), velocity.data(), spin.data()};
         view.start = start.data();
         view.cells = cells;
-        for (int n = 0; n < 7; ++n) view.list[n] = lists[n].data();
+        for (int n = 0; n < simd::gas_lists; ++n) view.list[n] = lists[n].data();
         view.margin = 1.1;
         view.restitution.eps = 1;
         view.tangential = 1;
@@ -114,7 +114,7 @@ TEST(Cell, MomentumAndEnergy) {
             simd::GasCollisions sum;
             for (std::uint32_t step = 0; step < 50; ++step) {
                 tile.view.random.step = step;
-                const auto r = simd::dsmc_kernels(isa).collide[1][rough ? 1 : 0](tile.view);
+                const auto r = simd::dsmc_kernels(isa).collide[1][rough ? 1 : 0][0](tile.view);
                 sum.collisions += r.collisions;
             }
             EXPECT_GT(sum.collisions, 5000);
@@ -136,7 +136,8 @@ TEST(Cell, RateOfAPair) {
     constexpr int steps = 500;
     for (std::uint32_t step = 0; step < steps; ++step) {
         tile.view.random.step = step;
-        collisions += simd::dsmc_kernels(simd::available_isas().back()).collide[1][0](tile.view).collisions;
+        collisions +=
+            simd::dsmc_kernels(simd::available_isas().back()).collide[1][0][0](tile.view).collisions;
     }
     const double expected = 2 * 0.05 * 1.0 * cells * steps;
     EXPECT_NEAR(static_cast<double>(collisions), expected, 5 * std::sqrt(expected));
@@ -148,7 +149,7 @@ TEST(Cell, EqualVelocitiesDoNotCollide) {
         for (std::int32_t i = 0; i < 16 * 7; ++i) tile.set(i, 1, 2, 3);
         tile.view.rate = 1;
         const auto before = tile.velocity;
-        const auto r = simd::dsmc_kernels(isa).collide[1][0](tile.view);
+        const auto r = simd::dsmc_kernels(isa).collide[1][0][0](tile.view);
         EXPECT_EQ(r.candidates, 0);
         EXPECT_EQ(tile.velocity, before);
     }
@@ -163,7 +164,7 @@ TEST(Cell, NoRestitution) {
     double energy = tile.energy();
     for (std::uint32_t step = 0; step < 300; ++step) {
         tile.view.random.step = step;
-        (void)simd::dsmc_kernels(simd::available_isas().back()).collide[1][0](tile.view);
+        (void)simd::dsmc_kernels(simd::available_isas().back()).collide[1][0][0](tile.view);
         EXPECT_LE(tile.energy(), energy);
         energy = tile.energy();
     }
@@ -179,7 +180,7 @@ TEST(Cell, OneVeryFastParticle) {
     std::int64_t violations = 0, candidates = 0;
     for (std::uint32_t step = 0; step < 2000; ++step) {
         tile.view.random.step = step;
-        const auto r = simd::dsmc_kernels(simd::available_isas().back()).collide[1][0](tile.view);
+        const auto r = simd::dsmc_kernels(simd::available_isas().back()).collide[1][0][0](tile.view);
         violations += r.violations;
         candidates += r.candidates;
     }
@@ -194,9 +195,9 @@ TEST(Cell, TooManyCandidates) {
         Tile tile(8, 10);
         tile.fill(0);
         tile.view.rate = 1e9;
-        EXPECT_EQ(simd::dsmc_kernels(isa).collide[1][0](tile.view).overflows, 8);
+        EXPECT_EQ(simd::dsmc_kernels(isa).collide[1][0][0](tile.view).overflows, 8);
         tile.set(0, std::nan(""), 0, 0);
         tile.view.rate = 0.01;
-        (void)simd::dsmc_kernels(isa).collide[1][0](tile.view); // ends
+        (void)simd::dsmc_kernels(isa).collide[1][0][0](tile.view); // ends
     }
 }

@@ -27,15 +27,20 @@ double extent(const double* velocity, std::int32_t n) {
 } // namespace
 
 template <int dimension, bool rough> GasCollisions collide_gas(const GasCollisionView& view) {
-    if (view.scheme != GasScheme::no_time_counter) return collide_by_scheme(dimension, rough, view);
+    if (view.scheme != GasScheme::no_time_counter && view.scheme != GasScheme::maxwell)
+        return collide_by_scheme(dimension, rough, view);
     GasCollisions result;
     for (std::int32_t c = 0; c < view.cells; ++c) {
         const std::int32_t begin = view.start[c], n = view.start[c + 1] - begin;
         if (n < 2) continue;
         const auto cell = static_cast<std::uint32_t>(view.first_cell + c);
-        const double majorant = view.margin * extent(view.rows.velocity + std::ptrdiff_t{begin} * gas_row, n);
-        double mean = view.rate * (static_cast<double>(n) * (n - 1)) * majorant;
-        if (view.packing > 0) mean *= laws::contact_correlation(dimension, view.packing * n);
+        const Crowding crowd = crowding(dimension, view, begin, n);
+        const double fastest = view.margin * extent(view.rows.velocity + std::ptrdiff_t{begin} * gas_row, n);
+        const bool maxwell = view.maxwell > 0; // all candidates collide
+        const double majorant = maxwell ? 0 : fastest * crowd.most;
+        const double mean = maxwell
+                                ? view.maxwell * n
+                                : view.rate * (static_cast<double>(n) * (n - 1)) * majorant * crowd.factor;
         const PhiloxCounter rounding = draw(view.random, 0, cell, GasStream::rounding);
         const double wanted = std::floor(mean + unit_number(rounding[0], rounding[1]));
         if (!(wanted < most_candidates)) {
@@ -50,8 +55,11 @@ template <int dimension, bool rough> GasCollisions collide_gas(const GasCollisio
             const std::int32_t i = begin + first, j = begin + second;
             const Vector<double> g = velocity_of(view.rows.velocity, i) - velocity_of(view.rows.velocity, j);
             const double speed = std::sqrt(dot(g, g));
-            if (speed > majorant) ++result.violations;
-            if (!(unit_number(w[2], w[3]) * majorant < speed)) continue;
+            const double counts = frequency(dimension, view, crowd, i, j) * speed;
+            if (!maxwell && counts > majorant) ++result.violations;
+            const bool accepted = unit_number(w[2], w[3]) * majorant < counts;
+            tell(view, cell, k, i, j, accepted);
+            if (!accepted) continue;
             collide<rough>(view, i, j, direction<dimension>(view, k, cell, g, speed));
             ++result.collisions;
         }

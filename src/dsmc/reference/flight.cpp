@@ -104,8 +104,10 @@ namespace sandlane::simd {
 const DsmcKernels& dsmc_kernels_scalar();
 const DsmcKernels& dsmc_kernels_scalar() {
     static const DsmcKernels table{reference::sort_gas,
-                                   {{reference::collide_gas<2, false>, reference::collide_gas<2, true>},
-                                    {reference::collide_gas<3, false>, reference::collide_gas<3, true>}},
+                                   {{{reference::collide_gas<2, false>, reference::collide_gas<2, false>},
+                                     {reference::collide_gas<2, true>, reference::collide_gas<2, true>}},
+                                    {{reference::collide_gas<3, false>, reference::collide_gas<3, false>},
+                                     {reference::collide_gas<3, true>, reference::collide_gas<3, true>}}},
                                    {reference::fly_gas<2>, reference::fly_gas<3>}};
     return table;
 }

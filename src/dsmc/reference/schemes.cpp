@@ -17,7 +17,14 @@ struct Cell {
     std::int32_t begin, n;
     double majorant;
     double rate; // F S g2 dt/(2 V), s/m
+    Crowding crowd;
 };
+
+// Relative speed times what the kinds of a mixture collide more or less often than the majorant says.
+double weighted(int dimension, const GasCollisionView& view, const Cell& cell, std::int32_t i, std::int32_t j,
+                double speed) {
+    return frequency(dimension, view, cell.crowd, i, j) * speed;
+}
 
 Vector<double> relative(const GasCollisionView& view, std::int32_t i, std::int32_t j) {
     return velocity_of(view.rows.velocity, i) - velocity_of(view.rows.velocity, j);
@@ -64,9 +71,11 @@ void direction_first(const GasCollisionView& view, const Cell& cell, GasCollisio
         const std::int32_t i = cell.begin + first, j = cell.begin + second;
         const Vector<double> g = relative(view, i, j);
         const Vector<double> e = folded_direction<dimension>(view, k, cell, g);
-        const double speed = std::abs(dot(g, e));
+        const double speed = weighted(dimension, view, cell, i, j, std::abs(dot(g, e)));
         if (speed > cell.majorant) ++result.violations;
-        if (!(unit_number(w[2], w[3]) * cell.majorant < speed)) continue;
+        const bool accepted = unit_number(w[2], w[3]) * cell.majorant < speed;
+        tell(view, cell.number, k, i, j, accepted);
+        if (!accepted) continue;
         collide<rough>(view, i, j, e);
         ++result.collisions;
     }
@@ -90,9 +99,12 @@ void nanbu_babovsky(const GasCollisionView& view, const Cell& cell, GasCollision
         }
         const std::int32_t i = order[2 * k], j = order[2 * k + 1];
         const Vector<double> g = relative(view, i, j);
-        const double probability = 2 * partners * cell.rate * std::sqrt(dot(g, g));
+        const double speed = weighted(dimension, view, cell, i, j, std::sqrt(dot(g, g)));
+        const double probability = 2 * partners * cell.rate * speed;
         if (probability > 1) ++result.violations;
-        if (!(unit_number(w[2], w[3]) < probability)) continue;
+        const bool accepted = unit_number(w[2], w[3]) < probability;
+        tell(view, cell.number, k, i, j, accepted);
+        if (!accepted) continue;
         collide_along<dimension, rough>(view, cell, k, i, j, g);
         ++result.collisions;
     }
@@ -112,9 +124,11 @@ void majorant_frequency(const GasCollisionView& view, const Cell& cell, GasColli
         const auto [first, second] = pair_of(w, cell.n);
         const std::int32_t i = cell.begin + first, j = cell.begin + second;
         const Vector<double> g = relative(view, i, j);
-        const double speed = std::sqrt(dot(g, g));
+        const double speed = weighted(dimension, view, cell, i, j, std::sqrt(dot(g, g)));
         if (speed > cell.majorant) ++result.violations;
-        if (!(unit_number(w[2], w[3]) * cell.majorant < speed)) continue;
+        const bool accepted = unit_number(w[2], w[3]) * cell.majorant < speed;
+        tell(view, cell.number, k, i, j, accepted);
+        if (!accepted) continue;
         collide_along<dimension, rough>(view, cell, k, i, j, g);
         ++result.collisions;
     }
@@ -130,9 +144,12 @@ void bernoulli(const GasCollisionView& view, const Cell& cell, GasCollisions& re
             const std::int32_t i = cell.begin + a, j = cell.begin + b;
             const PhiloxCounter w = draw(view.random, k, cell.number, GasStream::candidate);
             const Vector<double> g = relative(view, i, j);
-            const double probability = 2 * cell.rate * std::sqrt(dot(g, g));
+            const double speed = weighted(dimension, view, cell, i, j, std::sqrt(dot(g, g)));
+            const double probability = 2 * cell.rate * speed;
             if (probability > 1) ++result.violations;
-            if (!(unit_number(w[2], w[3]) < probability)) continue;
+            const bool accepted = unit_number(w[2], w[3]) < probability;
+            tell(view, cell.number, k, i, j, accepted);
+            if (!accepted) continue;
             collide_along<dimension, rough>(view, cell, k, i, j, g);
             ++result.collisions;
         }
@@ -141,8 +158,12 @@ void bernoulli(const GasCollisionView& view, const Cell& cell, GasCollisions& re
 template <int dimension, bool rough> GasCollisions all_cells(const GasCollisionView& view) {
     GasCollisions result;
     for (std::int32_t c = 0; c < view.cells; ++c) {
-        Cell cell{static_cast<std::uint32_t>(view.first_cell + c), view.start[c],
-                  view.start[c + 1] - view.start[c], 0, view.rate};
+        Cell cell{static_cast<std::uint32_t>(view.first_cell + c),
+                  view.start[c],
+                  view.start[c + 1] - view.start[c],
+                  0,
+                  view.rate,
+                  crowding(dimension, view, view.start[c], view.start[c + 1] - view.start[c])};
         if (cell.n < 2) continue;
         Vector<double> low = velocity_of(view.rows.velocity, cell.begin), high = low;
         for (std::int32_t i = 1; i < cell.n; ++i) {
@@ -151,8 +172,8 @@ template <int dimension, bool rough> GasCollisions all_cells(const GasCollisionV
             high = {max(high.x, v.x), max(high.y, v.y), max(high.z, v.z)};
         }
         const Vector<double> extent = high - low;
-        cell.majorant = view.margin * std::sqrt(dot(extent, extent));
-        if (view.packing > 0) cell.rate *= laws::contact_correlation(dimension, view.packing * cell.n);
+        cell.majorant = view.margin * std::sqrt(dot(extent, extent)) * cell.crowd.most;
+        cell.rate *= cell.crowd.factor;
         if (!(cell.majorant > 0)) continue;
         const double pairs = 0.5 * cell.n * (cell.n - 1.0);
         if (!(4 * cell.rate * pairs * cell.majorant < most_candidates) ||
@@ -174,6 +195,7 @@ template <int dimension, bool rough> GasCollisions all_cells(const GasCollisionV
             bernoulli<dimension, rough>(view, cell, result);
             break;
         case GasScheme::no_time_counter:
+        case GasScheme::maxwell:
             break;
         }
     }
