@@ -3,6 +3,7 @@
 
 #include "core/bytes.hpp"
 #include "core/hash.hpp"
+#include "edmd/epochs.hpp"
 #include "edmd/event_log.hpp"
 #include "edmd/setup.hpp"
 
@@ -69,7 +70,7 @@ protected:
     void put_course(ByteWriter& out) const;
     void get_course(ByteReader& in);
     // At the start of an epoch: throws Error(unstable) if the run makes no sense any more.
-    void check_course();
+    void check_course(const Drift& drift);
 
     Setup setup_;
     Clock clock_;

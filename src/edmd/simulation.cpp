@@ -174,10 +174,19 @@ std::int64_t Simulation::run(std::int64_t events, double until) {
     return done;
 }
 
+Drift Simulation::drift() const {
+    Drift drift;
+    for (const std::uint32_t k : order_by_id()) {
+        const HardState& s = states_[k];
+        drift.add(setup_.classes[s.word >> 48].mass, {s.velocity[0], s.velocity[1], s.velocity[2]});
+    }
+    return drift;
+}
+
 void Simulation::begin_epoch() {
     setup_.dimension == 2 ? synchronise<2>() : synchronise<3>();
     clock_.begin_epoch();
-    check_course();
+    check_course(drift());
     now_ = 0;
     sort_by_cell();
     set_epoch_end();

@@ -181,15 +181,17 @@ void SimpleAlgorithm::execute(const Next& next) {
 
 void SimpleAlgorithm::begin_epoch() {
     double square = 0;
+    Drift drift;
     for (State& s : states_) {
         fly(setup_, s.flight, clock_.now - s.flight.time);
         fold(s);
         s.flight.time = 0;
         s.last_time -= clock_.now;
         square = std::max(square, dot(s.flight.velocity, s.flight.velocity));
+        drift.add(setup_.classes[s.kind].mass, s.flight.velocity);
     }
     clock_.begin_epoch();
-    check_course();
+    check_course(drift);
     epoch_end_ = longest_epoch(setup_, square);
     epoch_events_ = 0;
     for (std::size_t i = 0; i < states_.size(); ++i) predict(i);
