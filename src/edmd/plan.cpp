@@ -89,6 +89,7 @@ void expect_events(const scene::Scene& scene, Plan& plan) {
     plan.events = std::max(1.0, events);
     plan.duration = scene.edmd.duration;
     if (plan.duration == 0) plan.duration = rate > 0 ? 2 * events / (n * rate) : 1;
+    plan.first_output = rate > 0 ? std::min(1 / rate, plan.duration) : plan.duration;
 }
 
 void say_what_is_skipped(Plan& plan) {

@@ -73,6 +73,7 @@ struct Species {
 };
 
 enum class EventAlgorithm { automatic, improved, simple };
+enum class EventSpacing { time, log_time, events };
 
 struct Edmd {
     EventAlgorithm algorithm = EventAlgorithm::automatic;
@@ -81,6 +82,7 @@ struct Edmd {
     double contact_time = 0;                   // s: sooner collisions are elastic
     double elastic_speed = 0;                  // m/s: slower impacts are elastic
     double cell_edge = 0;                      // m; 0: chosen
+    EventSpacing output_spacing = EventSpacing::time;
     double sample_every = 0, sample_start = 0; // s
     GasAxis profile_axis = GasAxis::x;
     std::int64_t profile_bins = 20;

@@ -143,6 +143,12 @@ const Table<Edmd>& edmd_table() {
                     "against inelastic collapse: slower impacts are elastic")
             .number("cell_edge", &Edmd::cell_edge, Unit::length, not_negative(),
                     "least edge of the cells; 0: chosen. Results do not depend on it")
+            .choice(
+                "output_spacing", &Edmd::output_spacing, {"time", "log-time", "events"},
+                "intervals of outputs are counted in time, and so are those chosen as parts of the duration; "
+                "\"log-time\": log, pictures and trajectories come first after their interval (0: the mean "
+                "time between two collisions of a particle at the start), then twenty times while the time "
+                "grows tenfold; \"events\": as many events as an interval takes on the average")
             .number("sample_every", &Edmd::sample_every, Unit::time, any,
                     "frames of profile.csv and distribution.csv, averages over time; 0: duration/200, "
                     "negative: none")
