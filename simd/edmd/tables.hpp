@@ -42,8 +42,8 @@ struct HardEvents {
 // A line of the cache each: columns begin with one.
 static_assert(sizeof(HardState) == 64 && sizeof(HardEvents) == 64);
 
-// Three numbers of particles and the way to more of them. meta: how many, and cell_slots + 1 times the number
-// of the next one; 0: none.
+// Three numbers of particles, 0 where there are fewer, and the way to more of them. meta: how many, and
+// cell_slots + 1 times the number of the next one; 0: none.
 inline constexpr std::uint32_t cell_slots = 3;
 struct HardCell {
     std::uint32_t particle[cell_slots];

@@ -40,16 +40,17 @@ double key_of(const HardEvents& e) {
 
 // ---- what the next events will read
 
-// Cells that a search of i looks at, without regard to what lies beyond the box, where there is nothing to
-// fetch in advance.
+// Cells that the search after the next event of i looks at, without regard to what lies beyond the box, where
+// nothing is fetched in advance: those around its cell, or those that are new to it when it has come through
+// face `layer`, which are two away from the cell where it still is.
 template <int dimension, class Body>
 void Simulation::for_rows(std::uint32_t i, int layer, const Body& body) const {
     const HardEvents& e = events_[i];
     std::int64_t from[3] = {-1, -1, -1}, to[3] = {1, 1, 1};
     if (dimension == 2) from[2] = to[2] = 0;
-    if (layer >= 0) from[layer / 2] = to[layer / 2] = layer % 2 == 0 ? -1 : 1;
+    if (layer >= 0) from[layer / 2] = to[layer / 2] = layer % 2 == 0 ? -2 : 2;
     const std::int64_t center = cell_number(e.cell);
-    const std::int64_t row = view_.count[0], plane = row * view_.count[1];
+    const std::int64_t row = view_.count[0], plane = plane_;
     for (std::int64_t z = from[2]; z <= to[2]; ++z)
         for (std::int64_t y = from[1]; y <= to[1]; ++y) {
             const std::int64_t first = center + z * plane + y * row + from[0];
@@ -62,35 +63,45 @@ template <int dimension> void Simulation::fetch_cells(std::uint32_t i, int layer
         fetch(first);
         fetch(last);
     });
+    if (layer < 0) return;
+    // Where it leaves, and where it goes to.
+    const std::int64_t here = cell_number(events_[i].cell), stride[3] = {1, view_.count[0], plane_},
+                       there = here + (layer % 2 == 0 ? -1 : 1) * stride[layer / 2];
+    fetch(cells_.data() + here);
+    if (there >= 0 && there < cell_count_) fetch(cells_.data() + there);
 }
 template <int dimension> void Simulation::fetch_states(std::uint32_t i, int layer) const {
     for_rows<dimension>(i, layer, [&](const simd::HardCell* first, const simd::HardCell* last) {
         for (; first <= last; ++first)
-            for (std::uint32_t k = 0; k < first->size(); ++k) fetch(states_.data() + first->particle[k]);
+            for (const std::uint32_t k : first->particle) fetch(states_.data() + k);
     });
 }
 // Fetches what the buckets that come up will read: each time one comes up, the ones after it take a step.
 template <int dimension> void Simulation::look_ahead() {
     const auto crosses = [](const HardEvents& e) { return e.crossing_time <= e.first_time; };
-    queue_.for_entries(4, [&](std::uint32_t i) {
+    queue_.for_entries(4, [&](std::uint32_t i, std::uint32_t) {
         fetch(&events_[i]);
         fetch(&states_[i]);
     });
-    queue_.for_entries(3, [&](std::uint32_t i) {
+    // Entries that went elsewhere are left out.
+    queue_.for_entries(3, [&](std::uint32_t i, std::uint32_t bucket) {
         const HardEvents& e = events_[i];
+        if (e.bucket != bucket) return;
         fetch_cells<dimension>(i, crosses(e) ? e.crossing : -1);
         if (crosses(e) || simd::is_wall(e.first)) return;
         fetch(&events_[e.first]);
         fetch(&states_[e.first]);
     });
-    queue_.for_entries(2, [&](std::uint32_t i) {
+    queue_.for_entries(2, [&](std::uint32_t i, std::uint32_t bucket) {
         const HardEvents& e = events_[i];
+        if (e.bucket != bucket) return;
         fetch_states<dimension>(i, crosses(e) ? e.crossing : -1);
         if (!crosses(e) && !simd::is_wall(e.first)) fetch_cells<dimension>(e.first, -1);
     });
-    queue_.for_entries(1, [&](std::uint32_t i) {
+    queue_.for_entries(1, [&](std::uint32_t i, std::uint32_t bucket) {
         const HardEvents& e = events_[i];
-        if (!crosses(e) && !simd::is_wall(e.first)) fetch_states<dimension>(e.first, -1);
+        if (e.bucket == bucket && !crosses(e) && !simd::is_wall(e.first))
+            fetch_states<dimension>(e.first, -1);
     });
 }
 
@@ -167,14 +178,16 @@ template <int dimension, bool special> void Simulation::look_for_crossing(std::u
     const HardState& s = states_[i];
     double first = never_meets;
     int through = 0;
+    double time[3] = {never_meets, never_meets, never_meets};
+    int face_number[3] = {0, 2, 4};
     for (int d = 0; d < dimension; ++d) {
         const double base = setup_.lower[d] + static_cast<double>(image_of(s, d)) * view_.length[d];
         if constexpr (!special) {
             const double v = s.velocity[d];
             const int up = v > 0 ? 1 : 0;
             const double face = base + (e.cell[d] + up) * edge_[d];
-            const double t = v != 0 ? s.time + (face - s.place[d]) / v : never_meets;
-            if (t < first) first = t, through = 2 * d + up;
+            time[d] = v != 0 ? s.time + (face - s.place[d]) / v : never_meets;
+            face_number[d] = 2 * d + up;
         } else {
             // From the present, since the face may have been met before the last crossing.
             const double dt = now_ - s.time, g = setup_.gravity[d];
@@ -187,6 +200,11 @@ template <int dimension, bool special> void Simulation::look_for_crossing(std::u
                 if (t < first) first = t, through = 2 * d + up;
             }
         }
+    }
+    if constexpr (!special) { // without branches: none of them could be foreseen
+        const int d = time[1] < time[0] ? 1 : 0, last = dimension == 3 && time[2] < time[d] ? 2 : d;
+        first = time[last];
+        through = face_number[last];
     }
     e.crossing_time = first;
     e.crossing = static_cast<std::uint8_t>(through);

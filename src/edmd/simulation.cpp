@@ -18,7 +18,7 @@ using simd::no_partner;
 namespace {
 
 // State of more than this is fetched ahead; below it costs more than it saves.
-constexpr std::size_t far_bytes = std::size_t{48} << 20;
+constexpr std::size_t far_bytes = std::size_t{8} << 20;
 
 } // namespace
 
@@ -67,6 +67,7 @@ void Simulation::choose_cells() {
         if (setup_.periodic[d] && view_.count[d] < 3)
             fail(Exit::invalid_input, "the box has {} cells in a periodic direction, fewer than three",
                  view_.count[d]);
+    plane_ = std::int64_t{view_.count[0]} * view_.count[1];
     cells_.resize(static_cast<std::size_t>(cell_count_));
     view_.radius = radius_.data();
     for (int d = 0; d < 3; ++d) view_.gravity[d] = setup_.gravity[d];
