@@ -41,7 +41,7 @@ struct Candidates {
     std::uint64_t faces[room + width];
 };
 
-template <class Arch, int dimension, bool general> class NearSearch {
+template <class Arch, int dimension, bool general, bool grows> class NearSearch {
     using B = Block<Arch>;
     using W = Words<Arch>;
 
@@ -172,8 +172,12 @@ private:
             reach = B(radius_) + load<Arch>(radii);
             gravity = {B(view_.gravity[0]), B(view_.gravity[1]), B(view_.gravity[2])};
         }
-        const B time =
-            laws::pair_time<dimension, general, B>(me_, other, shift, reach, gravity, B(never_meets));
+        B time;
+        if constexpr (grows)
+            time = laws::growing_pair_time<dimension, B>(me_, other, shift, reach, B(view_.scale),
+                                                         B(view_.growth), B(never_meets));
+        else
+            time = laws::pair_time<dimension, general, B>(me_, other, shift, reach, gravity, B(never_meets));
         const unsigned meets = bits(time < B(never_meets));
         unsigned hits = meets & ~bits(time > B(found_.second_time));
         if (hits != meets) found_.missed = true;
@@ -202,10 +206,10 @@ private:
     double radius_;
 };
 
-template <class Arch, int dimension, bool general>
+template <class Arch, int dimension, bool general, bool grows = false>
 void search_near(const HardSearch& view, std::uint32_t i, int layer, std::uint32_t excluded,
                  HardFound& found) {
-    NearSearch<Arch, dimension, general>(view, i, excluded, found).all(layer);
+    NearSearch<Arch, dimension, general, grows>(view, i, excluded, found).all(layer);
 }
 
 } // namespace sandlane::simd

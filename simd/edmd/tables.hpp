@@ -56,7 +56,8 @@ struct HardCell {
 
 // Partners that are none.
 inline constexpr std::uint32_t no_partner = 0xffffffff;
-inline constexpr std::uint32_t first_wall = 0xfffffff0; // + side, 2 axis + upper
+inline constexpr std::uint32_t first_wall = 0xffffff00; // + side, 2 axis + upper; then curved ones
+inline constexpr int most_curved = 200;
 [[nodiscard]] constexpr bool is_wall(std::uint32_t partner) {
     return partner >= first_wall;
 }
@@ -70,6 +71,7 @@ struct HardSearch {
     double length[3];     // of periodic directions, else 0
     const double* radius; // of the classes
     double gravity[3];
+    double scale, growth; // of the radii
 };
 
 struct HardFound {
@@ -87,6 +89,7 @@ using HardSearchNear = void (*)(const HardSearch&, std::uint32_t i, int layer, s
 struct EdmdKernels {
     HardSearchNear plain[2];   // [space] particles of one radius, without gravity
     HardSearchNear general[2]; // [space]
+    HardSearchNear growing[2]; // [space] radii grow; without gravity
 };
 [[nodiscard]] const EdmdKernels& edmd_kernels(Isa isa);
 

@@ -62,6 +62,8 @@ void Algorithm::put_course(ByteWriter& out) const {
     out.put(log_.count());
     out.put(epoch_events_);
     out.put(epoch_end_);
+    out.put(kicks_);
+    out.put(setup_.scale);
 }
 
 void Algorithm::get_course(ByteReader& in) {
@@ -79,6 +81,8 @@ void Algorithm::get_course(ByteReader& in) {
     log_.restore(state, count);
     epoch_events_ = in.get<std::int64_t>();
     epoch_end_ = in.get<double>();
+    kicks_ = in.get<std::int64_t>();
+    setup_.scale = in.get<double>();
 }
 
 void Algorithm::check_course(const Drift& drift) {

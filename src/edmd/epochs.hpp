@@ -54,7 +54,10 @@ private:
     for (const auto& axis : setup.side)
         for (const Side& side : axis)
             fastest = std::max({fastest, 7 * side.motion.frequency * side.motion.amplitude,
-                                std::sqrt(side.temperature / setup.classes[0].mass)});
+                                std::abs(side.speed), std::sqrt(side.temperature / setup.classes[0].mass)});
+    for (const Curved& c : setup.curved)
+        fastest = std::max(fastest, std::sqrt(c.wall.temperature / setup.classes[0].mass));
+    if (setup.kicks > 0) fastest = std::max(fastest, std::sqrt(setup.kicks * setup.kick_interval));
     const double straight = fastest > 0 ? 1000 * shortest / fastest : std::numeric_limits<double>::infinity();
     // A field that a periodic direction follows makes them faster all the time.
     return field > 0 ? std::min(straight, std::sqrt(1000 * shortest / std::sqrt(field))) : straight;

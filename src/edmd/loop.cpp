@@ -130,6 +130,10 @@ bool Simulation::still_meets(std::uint32_t i, std::uint32_t j, double time) cons
     const double reach =
         radius_[special ? kind_of(states_[i]) : 0] + radius_[special ? kind_of(states_[j]) : 0];
     const Vector<double> gravity{setup_.gravity[0], setup_.gravity[1], setup_.gravity[2]};
+    if (special && setup_.growth > 0)
+        return laws::growing_pair_time<dimension, double>(flight_of(states_[i]), flight_of(states_[j]),
+                                                          shift_of<dimension>(i, j), reach, setup_.scale,
+                                                          setup_.growth, never_meets) == time;
     return laws::pair_time<dimension, special, double>(flight_of(states_[i]), flight_of(states_[j]),
                                                        shift_of<dimension>(i, j), reach, gravity,
                                                        never_meets) == time;
@@ -149,19 +153,18 @@ template <int dimension, bool special> void Simulation::search(std::uint32_t i, 
         start = {e.first_time, e.second_time, e.first, e.second, e.missed != 0};
     else if constexpr (special) {
         const laws::Flight<double> flight = flight_of(states_[i]);
-        for (int d = 0; d < dimension; ++d)
-            for (int upper = 0; upper < 2 && !setup_.periodic[d]; ++upper) {
-                const double t = wall_time(setup_, flight, kind_of(states_[i]), d, upper, clock_.epoch);
-                if (t < never_meets)
-                    simd::add_contact(start, t, simd::first_wall + static_cast<std::uint32_t>(2 * d + upper),
-                                      events_.data());
-            }
+        for (int wall = 0; wall < setup_.walls(); ++wall) {
+            const double t = wall_time(setup_, flight, kind_of(states_[i]), wall, clock_.epoch);
+            if (t < never_meets)
+                simd::add_contact(start, t, simd::first_wall + static_cast<std::uint32_t>(wall),
+                                  events_.data());
+        }
     }
     simd::HardFound found = start;
     search_near_(view_, i, layer, no_partner, found);
     // Two that just met do not meet again before something else happens to one of them; another image may.
     if (!simd::is_wall(e.last) && (found.first == e.last || found.second == e.last) &&
-        events_[e.last].last == i && just_met<dimension>(i, e.last)) {
+        events_[e.last].last == i && setup_.growth == 0 && just_met<dimension>(i, e.last)) {
         found = start;
         search_near_(view_, i, layer, e.last, found);
     }
@@ -261,7 +264,7 @@ template <int dimension, bool special> void Simulation::collide_pair(std::uint32
     Impact impact;
     if constexpr (special) {
         const double last = max(events_[i].last_time, events_[j].last_time);
-        impact = collide(setup_, body[0], body[1], shift, now_ - last < setup_.contact_time);
+        impact = collide(setup_, body[0], body[1], shift, now_ - last < setup_.contact_time, now_);
         if (setup_.rough)
             for (int k = 0; k < 2; ++k) spin_[pair[k]] = body[k].spin;
     } else {
@@ -286,19 +289,18 @@ template <int dimension> void Simulation::settle(std::uint32_t i, const Body& bo
 template <int dimension> void Simulation::meet_side(std::uint32_t i, std::uint32_t wall) {
     const Vector<double> gravity{setup_.gravity[0], setup_.gravity[1], setup_.gravity[2]};
     HardEvents& e = events_[i];
-    const int side = static_cast<int>(wall - simd::first_wall);
+    const int number = static_cast<int>(wall - simd::first_wall);
     laws::Flight<double> f = flight_of(states_[i]);
     laws::fly<dimension, true>(f, now_ - f.time, gravity);
     Body body{f.place, f.velocity, {0, 0, 0}, kind_of(states_[i])};
     if (setup_.rough) body.spin = spin_[i];
-    const WallHit hit{side / 2, side % 2, clock_.epoch + now_,
-                      e.id,     e.hits,   now_ - e.last_time < setup_.contact_time};
+    const WallHit hit{number, clock_.epoch + now_, e.id, e.hits, now_ - e.last_time < setup_.contact_time};
     const WallEffect effect = meet_wall(setup_, body, hit);
     if (effect.heated) ++e.hits;
     if (setup_.rough) spin_[i] = body.spin;
     settle<dimension>(i, body, wall);
     tally_.add(effect);
-    log_.add({now_, Event::Kind::wall, e.id, static_cast<std::uint32_t>(side)});
+    log_.add({now_, Event::Kind::wall, e.id, static_cast<std::uint32_t>(number)});
 }
 
 template <int dimension, bool special> void Simulation::renew(std::uint32_t i) {

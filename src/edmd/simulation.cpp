@@ -26,7 +26,9 @@ Simulation::Simulation(Setup setup, const std::vector<Particle>& particles, simd
     : Algorithm(std::move(setup)), kernels_(&simd::edmd_kernels(isa)), threads_(threads),
       special_(!setup_.is_plain()) {
     const int space = setup_.dimension == 3 ? 1 : 0;
-    search_near_ = special_ ? kernels_->general[space] : kernels_->plain[space];
+    search_near_ = setup_.growth > 0 ? kernels_->growing[space]
+                   : special_        ? kernels_->general[space]
+                                     : kernels_->plain[space];
     for (const Class& c : setup_.classes) radius_.push_back(c.radius);
     states_.resize(particles.size());
     events_.resize(particles.size());
@@ -71,6 +73,7 @@ void Simulation::choose_cells() {
     cells_.resize(static_cast<std::size_t>(cell_count_));
     view_.radius = radius_.data();
     for (int d = 0; d < 3; ++d) view_.gravity[d] = setup_.gravity[d];
+    view_.growth = setup_.growth;
 }
 
 void Simulation::place_particles(const std::vector<Particle>& particles) {
@@ -146,6 +149,7 @@ void Simulation::set_epoch_end() {
 }
 
 void Simulation::dispatch_predict_all() {
+    view_.scale = setup_.scale;
     if (setup_.dimension == 2) {
         special_ ? predict_all<2, true>() : predict_all<2, false>();
     } else {
@@ -157,7 +161,7 @@ std::int64_t Simulation::run(std::int64_t events, double until) {
     std::int64_t done = 0;
     const std::int64_t whole = events_of_epoch(states_.size());
     while (done < events) {
-        const double end = std::min(epoch_end_, clock_.until(until));
+        const double stop = std::min(epoch_end_, next_kick()), end = std::min(stop, clock_.until(until));
         now_ = clock_.now;
         const std::int64_t asked = std::min(events - done, whole - epoch_events_);
         const std::int64_t taken = setup_.dimension == 2
@@ -167,8 +171,11 @@ std::int64_t Simulation::run(std::int64_t events, double until) {
         epoch_events_ += taken;
         if (taken < asked && end < never_meets) now_ = std::max(now_, end);
         clock_.now = now_;
-        if (epoch_events_ == whole || (taken < asked && end == epoch_end_ && end < never_meets))
+        const bool stopped = taken < asked && end == stop && end < never_meets;
+        if (epoch_events_ == whole || (stopped && stop == epoch_end_))
             begin_epoch();
+        else if (stopped)
+            kick();
         else if (taken < asked)
             break;
     }
@@ -184,9 +191,29 @@ Drift Simulation::drift() const {
     return drift;
 }
 
+// A kick changes all velocities; everything is predicted anew.
+void Simulation::kick() {
+    setup_.dimension == 2 ? synchronise<2>() : synchronise<3>();
+    restart_clock();
+    now_ = 0;
+    const std::vector<std::uint32_t> at = order_by_id();
+    std::vector<std::uint32_t> kinds;
+    for (const std::uint32_t k : at) kinds.push_back(static_cast<std::uint32_t>(states_[k].word >> 48));
+    const std::vector<Vector<double>> given = kicks(setup_, kinds, kicks_++);
+    for (std::size_t n = 0; n < at.size(); ++n) {
+        double(&v)[3] = states_[at[n]].velocity;
+        v[0] += given[n].x, v[1] += given[n].y, v[2] += given[n].z;
+        events_[at[n]].last = no_partner;
+    }
+    const std::int64_t events = epoch_events_;
+    set_epoch_end();
+    epoch_events_ = events; // so that storage is sorted now and then
+    dispatch_predict_all();
+}
+
 void Simulation::begin_epoch() {
     setup_.dimension == 2 ? synchronise<2>() : synchronise<3>();
-    clock_.begin_epoch();
+    restart_clock();
     check_course(drift());
     now_ = 0;
     sort_by_cell();

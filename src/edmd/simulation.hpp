@@ -65,6 +65,7 @@ private:
     void choose_cells();
     void place_particles(const std::vector<Particle>& particles);
     void begin_epoch();
+    void kick();
     [[nodiscard]] Drift drift() const;
     void sort_by_cell();
     void set_epoch_end();

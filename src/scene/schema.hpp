@@ -123,6 +123,7 @@ const Table<GasSide>& side_table();
 const Table<Dsmc>& dsmc_table();
 const Table<Species>& species_table();
 const Table<Edmd>& edmd_table();
+const Table<CurvedWall>& curved_wall_table();
 const Table<AnalysisSpec>& analysis_table();
 const Table<Output>& output_table();
 const Table<Scene>& scene_table(); // the keys outside any table
