@@ -198,6 +198,7 @@ void Simulation::kick() {
     now_ = 0;
     const std::vector<std::uint32_t> at = order_by_id();
     std::vector<std::uint32_t> kinds;
+    kinds.reserve(at.size());
     for (const std::uint32_t k : at) kinds.push_back(static_cast<std::uint32_t>(states_[k].word >> 48));
     const std::vector<Vector<double>> given = kicks(setup_, kinds, kicks_++);
     for (std::size_t n = 0; n < at.size(); ++n) {

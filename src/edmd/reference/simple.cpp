@@ -211,6 +211,7 @@ void SimpleAlgorithm::begin_epoch() {
 void SimpleAlgorithm::kick() {
     synchronise();
     std::vector<std::uint32_t> kinds;
+    kinds.reserve(states_.size());
     for (const State& s : states_) kinds.push_back(s.kind);
     const std::vector<Vector<double>> given = kicks(setup_, kinds, kicks_++);
     for (std::size_t i = 0; i < states_.size(); ++i) {
