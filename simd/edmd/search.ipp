@@ -34,21 +34,14 @@ SANDLANE_INLINE void add_cell(CellRun& run, std::int64_t at, std::int64_t count,
     run.faces[run.size++] = faces << shift;
 }
 
-// The candidates: their numbers, and the faces of the box between.
+// The candidates: their numbers, and the faces of the box between, which are not listed where there are none.
 struct Candidates {
     static constexpr int room = 256;
     std::uint32_t particle[room + width];
     std::uint64_t faces[room + width];
-    int size = 0;
 };
-template <class Arch>
-SANDLANE_INLINE void put_cell(Candidates& c, const HardCell& cell, std::uint64_t faces) {
-    std::memcpy(c.particle + c.size, cell.particle, sizeof cell);
-    Words<Arch>(faces).store(c.faces + c.size);
-    c.size += static_cast<int>(cell.size());
-}
 
-template <class Arch, int dimension, bool general> class NearSearch {
+template <class Arch, int dimension, bool general, bool grows> class NearSearch {
     using B = Block<Arch>;
     using W = Words<Arch>;
 
@@ -67,6 +60,44 @@ public:
 
     SANDLANE_INLINE void all(int layer) {
         const HardEvents& e = view_.events[i_];
+        if (is_inside(e, layer))
+            look_inside(e, layer);
+        else
+            look_across(e, layer);
+    }
+
+private:
+    [[nodiscard]] SANDLANE_INLINE bool is_inside(const HardEvents& e, int layer) const {
+        bool inside = true;
+        for (int d = 0; d < dimension; ++d) {
+            const int at = e.cell[d];
+            const bool alone = layer >= 0 && layer / 2 == d, up = layer % 2 == 1;
+            if (!alone || !up) inside = inside && at > 0;
+            if (!alone || up) inside = inside && at + 1 < view_.count[d];
+        }
+        return inside;
+    }
+
+    // Nothing of the box lies between.
+    SANDLANE_INLINE void look_inside(const HardEvents& e, int layer) {
+        std::int64_t from[3] = {-1, -1, -1}, to[3] = {1, 1, 1};
+        if (dimension == 2) from[2] = to[2] = 0;
+        if (layer >= 0) from[layer / 2] = to[layer / 2] = layer % 2 == 0 ? -1 : 1;
+        const std::int64_t row = view_.count[0], plane = row * view_.count[1];
+        const HardCell* here = view_.cells + e.cell[0] + row * e.cell[1];
+        if constexpr (dimension == 3) here += plane * e.cell[2];
+        Candidates c;
+        int size = 0;
+        for (std::int64_t z = from[2]; z <= to[2]; ++z)
+            for (std::int64_t y = from[1]; y <= to[1]; ++y) {
+                const HardCell* cell = here + (z * plane + y * row + from[0]);
+                const HardCell* const last = here + (z * plane + y * row + to[0]);
+                for (; cell <= last; ++cell) size = put_cell<false>(c, size, cell, 0);
+            }
+        predict<false>(c, size);
+    }
+
+    SANDLANE_INLINE void look_across(const HardEvents& e, int layer) {
         CellRun run[3];
         std::int64_t stride = 1;
         for (int d = 0; d < dimension; ++d) {
@@ -83,43 +114,52 @@ public:
             run[2].size = 1;
         }
         Candidates c;
+        int size = 0;
         for (int z = 0; z < run[2].size; ++z)
             for (int y = 0; y < run[1].size; ++y) {
-                const std::int64_t row = run[2].offset[z] + run[1].offset[y];
+                const std::int64_t line = run[2].offset[z] + run[1].offset[y];
                 const std::uint64_t faces = run[2].faces[z] + run[1].faces[y];
-                for (int x = 0; x < run[0].size; ++x) {
-                    const HardCell* cell = view_.cells + row + run[0].offset[x];
-                    put_cell<Arch>(c, *cell, faces + run[0].faces[x]);
-                    while (cell->meta > cell_slots) {
-                        cell = view_.cells + cell->next();
-                        if (c.size + width > Candidates::room) predict(c);
-                        put_cell<Arch>(c, *cell, faces + run[0].faces[x]);
-                    }
-                    if (c.size + width > Candidates::room) predict(c);
-                }
+                for (int x = 0; x < run[0].size; ++x)
+                    size = put_cell<true>(c, size, view_.cells + line + run[0].offset[x],
+                                          faces + run[0].faces[x]);
             }
-        predict(c);
+        predict<true>(c, size);
     }
 
-private:
-    // Every candidate, and an empty list.
-    SANDLANE_INLINE void predict(Candidates& c) {
-        const int n = c.size;
-        c.size = 0;
+    // Adds the particles of a cell; returns how many candidates there are now.
+    template <bool across>
+    SANDLANE_INLINE int put_cell(Candidates& c, int size, const HardCell* cell, std::uint64_t faces) {
+        for (;;) {
+            std::memcpy(c.particle + size, cell->particle, sizeof *cell);
+            if constexpr (across) W(faces).store(c.faces + size);
+            size += static_cast<int>(cell->size());
+            if (size + width > Candidates::room) [[unlikely]] {
+                predict<across>(c, size);
+                size = 0;
+            }
+            if (cell->meta <= cell_slots) [[likely]]
+                return size;
+            cell = view_.cells + cell->next();
+        }
+    }
+
+    template <bool across> SANDLANE_INLINE void predict(Candidates& c, int n) {
         // Lanes beyond the last one are the particle itself, which does not approach itself.
-        W(0).store(c.faces + n);
+        if constexpr (across) W(0).store(c.faces + n);
         for (int l = 0; l < width; ++l) c.particle[n + l] = i_;
-        for (int k = 0; k < n; k += width) block(c.particle + k, c.faces + k);
+        for (int k = 0; k < n; k += width) block(c.particle + k, across ? W::load(c.faces + k) : W(no_faces));
     }
 
-    SANDLANE_INLINE void block(const std::uint32_t* particle, const std::uint64_t* faces) {
+    static constexpr std::uint64_t no_faces = image_zero | image_zero << 16 | image_zero << 32;
+
+    SANDLANE_INLINE void block(const std::uint32_t* particle, const W& faces) {
         B field[8];
         Rows<Arch, 8>::gather(reinterpret_cast<const double*>(view_.state),
                               reinterpret_cast<const std::int32_t*>(particle), field);
         const laws::Flight<B> other{{field[0], field[1], field[2]}, {field[3], field[4], field[5]}, field[6]};
         // Images of i less those of j and faces between, in each field plus twice the bias; no field borrows
         // from the next.
-        const W difference = (W(images_) + W::load(faces)) - words_of(field[7]);
+        const W difference = (W(images_) + faces) - words_of(field[7]);
         Vector<B> shift;
         shift.x = image<0>(difference);
         shift.y = image<1>(difference);
@@ -132,8 +172,12 @@ private:
             reach = B(radius_) + load<Arch>(radii);
             gravity = {B(view_.gravity[0]), B(view_.gravity[1]), B(view_.gravity[2])};
         }
-        const B time =
-            laws::pair_time<dimension, general, B>(me_, other, shift, reach, gravity, B(never_meets));
+        B time;
+        if constexpr (grows)
+            time = laws::growing_pair_time<dimension, B>(me_, other, shift, reach, B(view_.scale),
+                                                         B(view_.growth), B(never_meets));
+        else
+            time = laws::pair_time<dimension, general, B>(me_, other, shift, reach, gravity, B(never_meets));
         const unsigned meets = bits(time < B(never_meets));
         unsigned hits = meets & ~bits(time > B(found_.second_time));
         if (hits != meets) found_.missed = true;
@@ -162,10 +206,10 @@ private:
     double radius_;
 };
 
-template <class Arch, int dimension, bool general>
+template <class Arch, int dimension, bool general, bool grows = false>
 void search_near(const HardSearch& view, std::uint32_t i, int layer, std::uint32_t excluded,
                  HardFound& found) {
-    NearSearch<Arch, dimension, general>(view, i, excluded, found).all(layer);
+    NearSearch<Arch, dimension, general, grows>(view, i, excluded, found).all(layer);
 }
 
 } // namespace sandlane::simd

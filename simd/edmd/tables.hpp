@@ -42,8 +42,8 @@ struct HardEvents {
 // A line of the cache each: columns begin with one.
 static_assert(sizeof(HardState) == 64 && sizeof(HardEvents) == 64);
 
-// Three numbers of particles and the way to more of them. meta: how many, and cell_slots + 1 times the number
-// of the next one; 0: none.
+// Three numbers of particles, 0 where there are fewer, and the way to more of them. meta: how many, and
+// cell_slots + 1 times the number of the next one; 0: none.
 inline constexpr std::uint32_t cell_slots = 3;
 struct HardCell {
     std::uint32_t particle[cell_slots];
@@ -56,7 +56,8 @@ struct HardCell {
 
 // Partners that are none.
 inline constexpr std::uint32_t no_partner = 0xffffffff;
-inline constexpr std::uint32_t first_wall = 0xfffffff0; // + side, 2 axis + upper
+inline constexpr std::uint32_t first_wall = 0xffffff00; // + side, 2 axis + upper; then curved ones
+inline constexpr int most_curved = 200;
 [[nodiscard]] constexpr bool is_wall(std::uint32_t partner) {
     return partner >= first_wall;
 }
@@ -70,6 +71,7 @@ struct HardSearch {
     double length[3];     // of periodic directions, else 0
     const double* radius; // of the classes
     double gravity[3];
+    double scale, growth; // of the radii
 };
 
 struct HardFound {
@@ -87,6 +89,7 @@ using HardSearchNear = void (*)(const HardSearch&, std::uint32_t i, int layer, s
 struct EdmdKernels {
     HardSearchNear plain[2];   // [space] particles of one radius, without gravity
     HardSearchNear general[2]; // [space]
+    HardSearchNear growing[2]; // [space] radii grow; without gravity
 };
 [[nodiscard]] const EdmdKernels& edmd_kernels(Isa isa);
 

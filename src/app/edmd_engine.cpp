@@ -71,10 +71,11 @@ public:
     [[nodiscard]] simd::Isa isa() const override { return isa_; }
     [[nodiscard]] int threads() const override { return plan_->threads; }
 
-    void run(std::int64_t steps) override {
+    void run(std::int64_t steps) override { run_until(steps, std::numeric_limits<double>::infinity()); }
+    void run_until(std::int64_t steps, double until) override {
         const double end =
             scene_->edmd.duration > 0 ? scene_->edmd.duration : std::numeric_limits<double>::infinity();
-        if (run_->run(steps, end) < steps) ended_ = true;
+        if (run_->run(steps, std::min(end, until)) < steps && end <= until) ended_ = true;
     }
     [[nodiscard]] std::int64_t step() const override {
         return static_cast<std::int64_t>(run_->log().count());
@@ -88,7 +89,16 @@ public:
     [[nodiscard]] bool finished() const override { return ended_; }
     [[nodiscard]] double work(std::int64_t steps) const override { return static_cast<double>(steps); }
     [[nodiscard]] double time() const override { return run_->time(); }
-    // On the average: outputs come after so many events as their intervals take about.
+    // Intervals that the scene does not give are parts of its duration, or else of its events.
+    [[nodiscard]] Pace pace(bool asked) const override {
+        using scene::EventSpacing;
+        const EventSpacing spacing = scene_->edmd.output_spacing;
+        const bool known = asked || scene_->edmd.duration > 0;
+        if (spacing == EventSpacing::log_time) return {Pace::Kind::log_time, plan_->first_output};
+        if (spacing == EventSpacing::time && known) return {Pace::Kind::time, 0};
+        return {};
+    }
+    // On the average, where intervals are counted in events.
     [[nodiscard]] double time_step() const override { return plan_->duration / plan_->events; }
     [[nodiscard]] double duration() const override { return plan_->duration; }
     [[nodiscard]] std::size_t size() const override { return run_->size(); }

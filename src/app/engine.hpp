@@ -18,6 +18,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -46,6 +47,8 @@ public:
 
     // Next step after `step` at which something is due, or `never` (interval.hpp).
     [[nodiscard]] virtual std::int64_t next_due(std::int64_t step) const = 0;
+    // Of what is due by time: when next, s.
+    [[nodiscard]] virtual double next_time() const { return std::numeric_limits<double>::infinity(); }
     // Writes what is due at the present step; all: every kind (start of a run).
     virtual void write_due(bool all) = 0;
     // What a checkpoint must remember so that the files go on without a gap, by name of output.
@@ -69,6 +72,12 @@ struct Decision {
     friend bool operator==(const Decision&, const Decision&) = default;
 };
 
+// What intervals of outputs are counted in.
+struct Pace {
+    enum class Kind { steps, time, log_time } kind = Kind::steps;
+    double first = 0; // log_time: of the first output, s, by default
+};
+
 class Engine {
 public:
     virtual ~Engine() = default;
@@ -80,6 +89,11 @@ public:
 
     // ---- going on
     virtual void run(std::int64_t steps) = 0;
+    // The same, but not beyond a time: for engines of which pace() says that outputs go by time.
+    virtual void run_until(std::int64_t steps, double until) {
+        (void)until;
+        run(steps);
+    }
     [[nodiscard]] virtual std::int64_t step() const = 0;  // done since the start of the scene
     [[nodiscard]] virtual std::int64_t steps() const = 0; // that the scene asks for
     // The same, for progress, where only finished() tells.
@@ -93,6 +107,11 @@ public:
     [[nodiscard]] virtual double time() const = 0;      // at step()
     [[nodiscard]] virtual double time_step() const = 0; // intervals of outputs are counted in it
     [[nodiscard]] virtual double duration() const = 0;  // intervals of outputs are parts of it
+    // asked: of an output whose interval the scene gives.
+    [[nodiscard]] virtual Pace pace(bool asked) const {
+        (void)asked;
+        return {};
+    }
     [[nodiscard]] virtual std::size_t size() const = 0; // grains, sites: what a step works on
     // What so many steps are counted as, in units of words().work.
     [[nodiscard]] virtual double work(std::int64_t steps) const {

@@ -1,6 +1,5 @@
 #include "app/gas_recorder.hpp"
 
-#include "app/interval.hpp"
 #include "core/file.hpp"
 #include "output/curves.hpp"
 #include "scene/schema.hpp"
@@ -13,8 +12,8 @@ namespace sandlane::app {
 namespace {
 
 // Pictures and trajectories are for those who ask: a gas has many particles.
-std::int64_t asked(double every, double duration, double dt) {
-    return every > 0 ? interval(every, duration, 0, dt) : never;
+Timer asked(double every, const GasEngine& engine) {
+    return every > 0 ? Timer(every, 0, engine, Spacing::paced) : Timer();
 }
 
 } // namespace
@@ -22,13 +21,14 @@ std::int64_t asked(double every, double duration, double dt) {
 GasRecorder::GasRecorder(const std::filesystem::path& folder, const GasEngine& engine,
                          const output::Checkpoint* resume)
     : engine_(engine), folder_(folder),
-      sample_steps_(interval(engine.sampling().every, engine.duration(), 200, engine.time_step())),
-      structure_steps_(asked(engine.sampling().structure_every, engine.duration(), engine.time_step())),
-      picture_steps_(asked(engine.scene().output.picture_every, engine.duration(), engine.time_step())),
-      trajectory_steps_(asked(engine.scene().output.trajectory_every, engine.duration(), engine.time_step())),
+      // Averages over time need frames at equal distances.
+      sample_timer_(engine.sampling().every, 200, engine, Spacing::even),
+      structure_timer_(asked(engine.sampling().structure_every, engine)),
+      picture_timer_(asked(engine.scene().output.picture_every, engine)),
+      trajectory_timer_(asked(engine.scene().output.trajectory_every, engine)),
       samples_(engine.make_samples()), structure_(engine.make_structure()),
       pictures_(folder / "pictures", engine.scene(), output::bookmark_in(resume, "pictures")) {
-    if (trajectory_steps_ != never)
+    if (trajectory_timer_.is_on())
         for (const scene::Trajectory kind : engine.scene().output.trajectory) {
             const std::string name(scene::trajectory_choices()[static_cast<std::size_t>(kind)]);
             trajectories_[name] = output::make_trajectory_writer(kind, folder, engine.scene(),
@@ -41,18 +41,24 @@ GasRecorder::GasRecorder(const std::filesystem::path& folder, const GasEngine& e
 }
 
 std::int64_t GasRecorder::next_due(std::int64_t step) const {
-    return std::min({next_multiple(step, sample_steps_), next_multiple(step, structure_steps_),
-                     next_multiple(step, picture_steps_), next_multiple(step, trajectory_steps_)});
+    return std::min({sample_timer_.next_step(step), structure_timer_.next_step(step),
+                     picture_timer_.next_step(step), trajectory_timer_.next_step(step)});
+}
+
+double GasRecorder::next_time() const {
+    return std::min({sample_timer_.next_time(), structure_timer_.next_time(), picture_timer_.next_time(),
+                     trajectory_timer_.next_time()});
 }
 
 void GasRecorder::write_due(bool all) {
-    const std::int64_t step = engine_.step();
-    if (is_due(step, sample_steps_, false) && step > 0 && engine_.time() >= engine_.sampling().start)
+    if (sample_timer_.is_due(engine_, false) && engine_.time() > 0 &&
+        engine_.time() >= engine_.sampling().start)
         engine_.sample(samples_);
-    if (is_due(step, structure_steps_, all))
+    if (structure_timer_.is_due(engine_, all))
         structure_.add(engine_.time(), engine_.structure_particles(),
-                       step > 0 && engine_.time() >= engine_.sampling().start);
-    const bool picture = is_due(step, picture_steps_, all), trajectory = is_due(step, trajectory_steps_, all);
+                       engine_.time() > 0 && engine_.time() >= engine_.sampling().start);
+    const bool picture = picture_timer_.is_due(engine_, all),
+               trajectory = trajectory_timer_.is_due(engine_, all);
     if (!(picture || trajectory)) return;
     const analysis::Snapshot snapshot = engine_.snapshot();
     if (picture) pictures_.write(snapshot);

@@ -3,6 +3,7 @@
 
 #include "analysis/gas_samples.hpp"
 #include "app/gas_engine.hpp"
+#include "app/timer.hpp"
 #include "output/picture_series.hpp"
 #include "output/writers.hpp"
 
@@ -20,6 +21,7 @@ public:
                 const output::Checkpoint* resume);
 
     [[nodiscard]] std::int64_t next_due(std::int64_t step) const override;
+    [[nodiscard]] double next_time() const override;
     void write_due(bool all) override;
     void add_bookmarks(std::map<std::string, std::string>& bookmarks) override;
     void finish() override { write_tables(); }
@@ -31,7 +33,7 @@ private:
 
     const GasEngine& engine_;
     std::filesystem::path folder_;
-    std::int64_t sample_steps_, structure_steps_, picture_steps_, trajectory_steps_;
+    Timer sample_timer_, structure_timer_, picture_timer_, trajectory_timer_;
     analysis::GasSamples samples_;
     analysis::GasStructure structure_;
     output::PictureSeries pictures_;

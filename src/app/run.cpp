@@ -101,13 +101,13 @@ private:
     void advance(std::int64_t stop) {
         const std::int64_t asked = stop - engine_.step(), before = engine_.taken();
         const Stopwatch clock;
-        engine_.run(asked);
+        engine_.run_until(asked, outputs_.next_time());
         const double seconds = clock.seconds();
-        const std::int64_t taken = engine_.taken() - before; // fewer if it has finished
+        const std::int64_t taken = engine_.taken() - before; // fewer if it has finished, or is at an output
         timing_.seconds += seconds;
         timing_.steps += taken;
         timing_.work += engine_.work(taken);
-        if (seconds < 0.05 && asked == slice_) slice_ *= 2;
+        if (seconds < 0.05 && asked == slice_ && engine_.step() >= stop) slice_ *= 2;
         if (seconds > 0.2 && slice_ > 1) slice_ /= 2;
     }
 

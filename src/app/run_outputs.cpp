@@ -1,6 +1,5 @@
 #include "app/run_outputs.hpp"
 
-#include "app/interval.hpp"
 #include "core/file.hpp"
 #include "output/picture.hpp"
 #include "output/report.hpp"
@@ -42,9 +41,8 @@ RunOutputs::RunOutputs(const fs::path& folder, Engine& engine, std::string plan_
       folder_(folder, resume != nullptr ? output::RunFolder::Start::resume : output::RunFolder::Start::fresh),
       plan_text_(std::move(plan_text)) {
     const scene::Output& o = engine.scene().output;
-    log_steps_ = interval(o.log_every, engine.duration(), 200, engine.time_step(), engine.stride());
-    checkpoint_steps_ =
-        interval(o.checkpoint_every, engine.duration(), 0, engine.time_step(), engine.stride());
+    log_timer_ = Timer(o.log_every, 200, engine, Spacing::paced);
+    checkpoint_timer_ = Timer(o.checkpoint_every, 0, engine, Spacing::even);
     try {
         open_files(resume);
     } catch (...) {
@@ -66,14 +64,17 @@ void RunOutputs::open_files(const output::Checkpoint* resume) {
 
 std::int64_t RunOutputs::next_due(std::int64_t step) const {
     return std::min(
-        {next_multiple(step, log_steps_), next_multiple(step, checkpoint_steps_), recorder_->next_due(step)});
+        {log_timer_.next_step(step), checkpoint_timer_.next_step(step), recorder_->next_due(step)});
+}
+
+double RunOutputs::next_time() const {
+    return std::min({log_timer_.next_time(), checkpoint_timer_.next_time(), recorder_->next_time()});
 }
 
 void RunOutputs::write_due(bool all) {
-    const std::int64_t step = engine_.step();
-    if (is_due(step, log_steps_, all)) log_->write(std::vector<std::vector<double>>{engine_.log_row()});
+    if (log_timer_.is_due(engine_, all)) log_->write(std::vector<std::vector<double>>{engine_.log_row()});
     recorder_->write_due(all);
-    if (is_due(step, checkpoint_steps_, all) && step > 0) write_checkpoint();
+    if (checkpoint_timer_.is_due(engine_, all) && engine_.step() > 0) write_checkpoint();
     for (const std::string& text : engine_.news()) warn(text);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/engine.hpp"
+#include "app/timer.hpp"
 #include "core/progress.hpp"
 #include "output/checkpoint.hpp"
 #include "output/folder.hpp"
@@ -24,6 +25,8 @@ public:
 
     // Next step after `step` at which something is due.
     [[nodiscard]] std::int64_t next_due(std::int64_t step) const;
+    // Next time at which something is due by time, s.
+    [[nodiscard]] double next_time() const;
     // Writes what is due at the present step; all = true writes every kind (start of a run).
     void write_due(bool all);
     // Last outputs, checkpoint, report, movie. Returns the path of the checkpoint.
@@ -42,7 +45,7 @@ private:
     Engine& engine_;
     output::RunFolder folder_;
     std::string plan_text_;
-    std::int64_t log_steps_, checkpoint_steps_;
+    Timer log_timer_, checkpoint_timer_;
     std::unique_ptr<output::LogWriter> log_;
     std::unique_ptr<Recorder> recorder_;
     std::vector<std::filesystem::path> checkpoints_; // oldest first

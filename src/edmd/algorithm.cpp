@@ -62,6 +62,8 @@ void Algorithm::put_course(ByteWriter& out) const {
     out.put(log_.count());
     out.put(epoch_events_);
     out.put(epoch_end_);
+    out.put(kicks_);
+    out.put(setup_.scale);
 }
 
 void Algorithm::get_course(ByteReader& in) {
@@ -79,9 +81,11 @@ void Algorithm::get_course(ByteReader& in) {
     log_.restore(state, count);
     epoch_events_ = in.get<std::int64_t>();
     epoch_end_ = in.get<double>();
+    kicks_ = in.get<std::int64_t>();
+    setup_.scale = in.get<double>();
 }
 
-void Algorithm::check_course() {
+void Algorithm::check_course(const Drift& drift) {
     const auto events = static_cast<std::int64_t>(log_.count());
     if (guard_.sees(time(), events, size()))
         fail(Exit::unstable,
@@ -90,6 +94,17 @@ void Algorithm::check_course() {
              "Give edmd.contact_time or edmd.elastic_speed, e.g. a thousandth of the time between two "
              "collisions, or of the thermal speed",
              time(), events);
+    // Without a collision nothing has cooled: particles may fly together from the start.
+    if (tally_.collisions > 0 && drift.is_too_fast())
+        fail(
+            Exit::unstable,
+            "at t = {:.9g} s, after {} events, the particles fly together {:.0e} times faster than relative "
+            "to "
+            "each other, too fast to tell these velocities from rounding. A gas that cools freely gets there "
+            "by the rounding of its momentum: let it end earlier (edmd.duration, edmd.events), or heat it. "
+            "In "
+            "a field of gravity along a periodic direction all fall together: take it out of domain.periodic",
+            time(), events, Drift::most);
     const double radius = setup_.smallest_radius();
     if (tally_.smallest_gap < -1e-9 * radius)
         fail(Exit::unstable, "particles overlap by {:.3g} m when they meet, at t = {:.9g} s",

@@ -3,6 +3,7 @@
 
 #include "core/bytes.hpp"
 #include "core/hash.hpp"
+#include "edmd/epochs.hpp"
 #include "edmd/event_log.hpp"
 #include "edmd/setup.hpp"
 
@@ -69,7 +70,7 @@ protected:
     void put_course(ByteWriter& out) const;
     void get_course(ByteReader& in);
     // At the start of an epoch: throws Error(unstable) if the run makes no sense any more.
-    void check_course();
+    void check_course(const Drift& drift);
 
     Setup setup_;
     Clock clock_;
@@ -78,6 +79,18 @@ protected:
     std::int64_t epoch_events_ = 0; // in this epoch
     double epoch_end_ = 0;          // of this epoch at the latest
     CollapseGuard guard_;
+    std::int64_t kicks_ = 0; // of the thermostat, so far
+
+    // When the next kick is due, of this epoch.
+    [[nodiscard]] double next_kick() const {
+        return setup_.kicks > 0 ? clock_.until(static_cast<double>(kicks_ + 1) * setup_.kick_interval)
+                                : std::numeric_limits<double>::infinity();
+    }
+    // The present becomes the start of an epoch.
+    void restart_clock() {
+        setup_.scale += setup_.growth * clock_.now;
+        clock_.begin_epoch();
+    }
 };
 
 } // namespace sandlane::edmd

@@ -40,6 +40,7 @@ void Simulation::take_from_cell(std::int64_t number, std::uint32_t i) {
         for (std::uint32_t k = 0; k < size; ++k) {
             if (cell->particle[k] != i) continue;
             cell->particle[k] = cell->particle[size - 1];
+            cell->particle[size - 1] = 0;
             --cell->meta;
             if (size == 1 && before != nullptr) {
                 const std::uint32_t emptied = before->next();

@@ -2,6 +2,7 @@
 // particles are flown to the present, and times count from there.
 #pragma once
 
+#include "core/vector.hpp"
 #include "edmd/setup.hpp"
 
 #include <algorithm>
@@ -12,8 +13,34 @@ namespace sandlane::edmd {
 
 // Events of one epoch: twenty for each particle.
 [[nodiscard]] inline std::int64_t events_of_epoch(std::size_t particles) {
-    return std::max<std::int64_t>(1000, 20 * static_cast<std::int64_t>(particles));
+    return 20 * std::max<std::int64_t>(2, static_cast<std::int64_t>(particles));
 }
+
+// How fast all particles move together, in units of their thermal speed. Rounding leaves the centre of mass a
+// velocity of 1e-16 of that of the start; a gas that cools far enough moves with it, and then velocities
+// relative to each other, which alone decide about collisions, keep no digits.
+class Drift {
+public:
+    // Ten thousand: collisions know their velocities to twelve digits.
+    static constexpr double most = 1e4;
+
+    void add(double mass, const Vector<double>& velocity) {
+        ++count_;
+        mass_ += mass;
+        momentum_ = momentum_ + mass * velocity;
+        twice_energy_ += mass * dot(velocity, velocity);
+    }
+    [[nodiscard]] bool is_too_fast() const {
+        if (count_ < 2) return false;
+        const double together = dot(momentum_, momentum_) / mass_;
+        return together > most * most * std::max(twice_energy_ - together, 0.0);
+    }
+
+private:
+    std::size_t count_ = 0;
+    double mass_ = 0, twice_energy_ = 0;
+    Vector<double> momentum_{0, 0, 0};
+};
 
 // Longest epoch: no particle crosses a thousand boxes, unless it becomes far faster than any at its start.
 // square: of the largest speed.
@@ -27,7 +54,10 @@ namespace sandlane::edmd {
     for (const auto& axis : setup.side)
         for (const Side& side : axis)
             fastest = std::max({fastest, 7 * side.motion.frequency * side.motion.amplitude,
-                                std::sqrt(side.temperature / setup.classes[0].mass)});
+                                std::abs(side.speed), std::sqrt(side.temperature / setup.classes[0].mass)});
+    for (const Curved& c : setup.curved)
+        fastest = std::max(fastest, std::sqrt(c.wall.temperature / setup.classes[0].mass));
+    if (setup.kicks > 0) fastest = std::max(fastest, std::sqrt(setup.kicks * setup.kick_interval));
     const double straight = fastest > 0 ? 1000 * shortest / fastest : std::numeric_limits<double>::infinity();
     // A field that a periodic direction follows makes them faster all the time.
     return field > 0 ? std::min(straight, std::sqrt(1000 * shortest / std::sqrt(field))) : straight;

@@ -27,72 +27,11 @@ std::uint32_t kind_of(const HardState& s) {
 laws::Flight<double> flight_of(const HardState& s) {
     return {{s.place[0], s.place[1], s.place[2]}, {s.velocity[0], s.velocity[1], s.velocity[2]}, s.time};
 }
-// The empty statement keeps compilers from taking functions that only fetch for functions that do nothing.
-SANDLANE_INLINE void fetch(const void* from) {
-    __builtin_prefetch(from);
-    asm volatile("");
-}
 double key_of(const HardEvents& e) {
     return e.first_time < e.crossing_time ? e.first_time : e.crossing_time;
 }
 
 } // namespace
-
-// ---- what the next events will read
-
-// Cells that a search of i looks at, without regard to what lies beyond the box, where there is nothing to
-// fetch in advance.
-template <int dimension, class Body>
-void Simulation::for_rows(std::uint32_t i, int layer, const Body& body) const {
-    const HardEvents& e = events_[i];
-    std::int64_t from[3] = {-1, -1, -1}, to[3] = {1, 1, 1};
-    if (dimension == 2) from[2] = to[2] = 0;
-    if (layer >= 0) from[layer / 2] = to[layer / 2] = layer % 2 == 0 ? -1 : 1;
-    const std::int64_t center = cell_number(e.cell);
-    const std::int64_t row = view_.count[0], plane = row * view_.count[1];
-    for (std::int64_t z = from[2]; z <= to[2]; ++z)
-        for (std::int64_t y = from[1]; y <= to[1]; ++y) {
-            const std::int64_t first = center + z * plane + y * row + from[0];
-            if (first < 0 || first + to[0] - from[0] >= cell_count_) continue;
-            body(cells_.data() + first, cells_.data() + first + (to[0] - from[0]));
-        }
-}
-template <int dimension> void Simulation::fetch_cells(std::uint32_t i, int layer) const {
-    for_rows<dimension>(i, layer, [](const simd::HardCell* first, const simd::HardCell* last) {
-        fetch(first);
-        fetch(last);
-    });
-}
-template <int dimension> void Simulation::fetch_states(std::uint32_t i, int layer) const {
-    for_rows<dimension>(i, layer, [&](const simd::HardCell* first, const simd::HardCell* last) {
-        for (; first <= last; ++first)
-            for (std::uint32_t k = 0; k < first->size(); ++k) fetch(states_.data() + first->particle[k]);
-    });
-}
-// Fetches what the buckets that come up will read: each time one comes up, the ones after it take a step.
-template <int dimension> void Simulation::look_ahead() {
-    const auto crosses = [](const HardEvents& e) { return e.crossing_time <= e.first_time; };
-    queue_.for_entries(4, [&](std::uint32_t i) {
-        fetch(&events_[i]);
-        fetch(&states_[i]);
-    });
-    queue_.for_entries(3, [&](std::uint32_t i) {
-        const HardEvents& e = events_[i];
-        fetch_cells<dimension>(i, crosses(e) ? e.crossing : -1);
-        if (crosses(e) || simd::is_wall(e.first)) return;
-        fetch(&events_[e.first]);
-        fetch(&states_[e.first]);
-    });
-    queue_.for_entries(2, [&](std::uint32_t i) {
-        const HardEvents& e = events_[i];
-        fetch_states<dimension>(i, crosses(e) ? e.crossing : -1);
-        if (!crosses(e) && !simd::is_wall(e.first)) fetch_cells<dimension>(e.first, -1);
-    });
-    queue_.for_entries(1, [&](std::uint32_t i) {
-        const HardEvents& e = events_[i];
-        if (!crosses(e) && !simd::is_wall(e.first)) fetch_states<dimension>(e.first, -1);
-    });
-}
 
 // ---- prediction
 
@@ -119,6 +58,10 @@ bool Simulation::still_meets(std::uint32_t i, std::uint32_t j, double time) cons
     const double reach =
         radius_[special ? kind_of(states_[i]) : 0] + radius_[special ? kind_of(states_[j]) : 0];
     const Vector<double> gravity{setup_.gravity[0], setup_.gravity[1], setup_.gravity[2]};
+    if (special && setup_.growth > 0)
+        return laws::growing_pair_time<dimension, double>(flight_of(states_[i]), flight_of(states_[j]),
+                                                          shift_of<dimension>(i, j), reach, setup_.scale,
+                                                          setup_.growth, never_meets) == time;
     return laws::pair_time<dimension, special, double>(flight_of(states_[i]), flight_of(states_[j]),
                                                        shift_of<dimension>(i, j), reach, gravity,
                                                        never_meets) == time;
@@ -138,19 +81,18 @@ template <int dimension, bool special> void Simulation::search(std::uint32_t i, 
         start = {e.first_time, e.second_time, e.first, e.second, e.missed != 0};
     else if constexpr (special) {
         const laws::Flight<double> flight = flight_of(states_[i]);
-        for (int d = 0; d < dimension; ++d)
-            for (int upper = 0; upper < 2 && !setup_.periodic[d]; ++upper) {
-                const double t = wall_time(setup_, flight, kind_of(states_[i]), d, upper, clock_.epoch);
-                if (t < never_meets)
-                    simd::add_contact(start, t, simd::first_wall + static_cast<std::uint32_t>(2 * d + upper),
-                                      events_.data());
-            }
+        for (int wall = 0; wall < setup_.walls(); ++wall) {
+            const double t = wall_time(setup_, flight, kind_of(states_[i]), wall, clock_.epoch);
+            if (t < never_meets)
+                simd::add_contact(start, t, simd::first_wall + static_cast<std::uint32_t>(wall),
+                                  events_.data());
+        }
     }
     simd::HardFound found = start;
     search_near_(view_, i, layer, no_partner, found);
     // Two that just met do not meet again before something else happens to one of them; another image may.
     if (!simd::is_wall(e.last) && (found.first == e.last || found.second == e.last) &&
-        events_[e.last].last == i && just_met<dimension>(i, e.last)) {
+        events_[e.last].last == i && setup_.growth == 0 && just_met<dimension>(i, e.last)) {
         found = start;
         search_near_(view_, i, layer, e.last, found);
     }
@@ -167,14 +109,16 @@ template <int dimension, bool special> void Simulation::look_for_crossing(std::u
     const HardState& s = states_[i];
     double first = never_meets;
     int through = 0;
+    double time[3] = {never_meets, never_meets, never_meets};
+    int face_number[3] = {0, 2, 4};
     for (int d = 0; d < dimension; ++d) {
         const double base = setup_.lower[d] + static_cast<double>(image_of(s, d)) * view_.length[d];
         if constexpr (!special) {
             const double v = s.velocity[d];
             const int up = v > 0 ? 1 : 0;
             const double face = base + (e.cell[d] + up) * edge_[d];
-            const double t = v != 0 ? s.time + (face - s.place[d]) / v : never_meets;
-            if (t < first) first = t, through = 2 * d + up;
+            time[d] = v != 0 ? s.time + (face - s.place[d]) / v : never_meets;
+            face_number[d] = 2 * d + up;
         } else {
             // From the present, since the face may have been met before the last crossing.
             const double dt = now_ - s.time, g = setup_.gravity[d];
@@ -187,6 +131,11 @@ template <int dimension, bool special> void Simulation::look_for_crossing(std::u
                 if (t < first) first = t, through = 2 * d + up;
             }
         }
+    }
+    if constexpr (!special) { // without branches: none of them could be foreseen
+        const int d = time[1] < time[0] ? 1 : 0, last = dimension == 3 && time[2] < time[d] ? 2 : d;
+        first = time[last];
+        through = face_number[last];
     }
     e.crossing_time = first;
     e.crossing = static_cast<std::uint8_t>(through);
@@ -243,7 +192,7 @@ template <int dimension, bool special> void Simulation::collide_pair(std::uint32
     Impact impact;
     if constexpr (special) {
         const double last = max(events_[i].last_time, events_[j].last_time);
-        impact = collide(setup_, body[0], body[1], shift, now_ - last < setup_.contact_time);
+        impact = collide(setup_, body[0], body[1], shift, now_ - last < setup_.contact_time, now_);
         if (setup_.rough)
             for (int k = 0; k < 2; ++k) spin_[pair[k]] = body[k].spin;
     } else {
@@ -268,19 +217,18 @@ template <int dimension> void Simulation::settle(std::uint32_t i, const Body& bo
 template <int dimension> void Simulation::meet_side(std::uint32_t i, std::uint32_t wall) {
     const Vector<double> gravity{setup_.gravity[0], setup_.gravity[1], setup_.gravity[2]};
     HardEvents& e = events_[i];
-    const int side = static_cast<int>(wall - simd::first_wall);
+    const int number = static_cast<int>(wall - simd::first_wall);
     laws::Flight<double> f = flight_of(states_[i]);
     laws::fly<dimension, true>(f, now_ - f.time, gravity);
     Body body{f.place, f.velocity, {0, 0, 0}, kind_of(states_[i])};
     if (setup_.rough) body.spin = spin_[i];
-    const WallHit hit{side / 2, side % 2, clock_.epoch + now_,
-                      e.id,     e.hits,   now_ - e.last_time < setup_.contact_time};
+    const WallHit hit{number, clock_.epoch + now_, e.id, e.hits, now_ - e.last_time < setup_.contact_time};
     const WallEffect effect = meet_wall(setup_, body, hit);
     if (effect.heated) ++e.hits;
     if (setup_.rough) spin_[i] = body.spin;
     settle<dimension>(i, body, wall);
     tally_.add(effect);
-    log_.add({now_, Event::Kind::wall, e.id, static_cast<std::uint32_t>(side)});
+    log_.add({now_, Event::Kind::wall, e.id, static_cast<std::uint32_t>(number)});
 }
 
 template <int dimension, bool special> void Simulation::renew(std::uint32_t i) {

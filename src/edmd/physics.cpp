@@ -11,7 +11,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 // Of the counter of random numbers (specification, 7.4).
-constexpr std::uint32_t wall_stream = 4;
+constexpr std::uint32_t kick_stream = 3, wall_stream = 4;
 
 double& component(Vector<double>& v, int axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
@@ -28,15 +28,17 @@ double kinetic(const Setup& setup, const Body& b) {
 
 } // namespace
 
-Impact collide(const Setup& setup, Body& i, Body& j, const Vector<double>& shift, bool soon) {
+Impact collide(const Setup& setup, Body& i, Body& j, const Vector<double>& shift, bool soon, double now) {
     const Class &a = setup.classes[i.kind], &b = setup.classes[j.kind];
     Vector<double> r = i.place - j.place - shift;
     if (setup.dimension == 2) r.z = 0;
     const double distance = std::sqrt(dot(r, r));
     const Vector<double> e = (1 / distance) * r;
     const Vector<double> relative = i.velocity - j.velocity;
-    const double normal = min(dot(relative, e), 0.0);
-    Impact impact{distance - (a.radius + b.radius)};
+    // Of the surfaces, which approach by themselves where radii grow.
+    const double reach = a.radius + b.radius;
+    const double normal = min(dot(relative, e) - reach * setup.growth, 0.0);
+    Impact impact{distance - reach * (setup.scale + setup.growth * now)};
     const double given = laws::restitution(setup.restitution, -normal);
     impact.elastic = soon || -normal < setup.elastic_speed;
     const double eps = impact.elastic ? 1 : given;
@@ -65,71 +67,185 @@ Impact collide(const Setup& setup, Body& i, Body& j, const Vector<double>& shift
     return impact;
 }
 
-double wall_time(const Setup& setup, const laws::Flight<double>& state, std::uint32_t kind, int axis,
-                 int upper, double epoch) {
-    if (setup.periodic[axis]) return never;
+double wall_time(const Setup& setup, const laws::Flight<double>& state, std::uint32_t kind, int wall,
+                 double epoch) {
+    const double radius = setup.classes[kind].radius;
+    if (wall >= 6) {
+        const Curved& c = setup.curved[static_cast<std::size_t>(wall - 6)];
+        const Vector<double> gravity{setup.gravity[0], setup.gravity[1], setup.gravity[2]};
+        Vector<double> v = state.velocity, g = gravity;
+        if (c.axis >= 0) component(v, c.axis) = component(g, c.axis) = 0;
+        const double distance = c.container ? c.radius - radius : c.radius + radius;
+        return state.time +
+               laws::curved_wall_time(from_centre(setup, c, state.place), v, g, distance, c.container);
+    }
+    const int axis = wall / 2, upper = wall % 2;
+    if (axis >= setup.dimension || setup.periodic[axis]) return never;
     const Side& side = setup.side[axis][upper];
     const double sign = upper == 0 ? 1 : -1;
     const double bound = upper == 0 ? setup.lower[axis] : setup.upper[axis];
-    const double gap = sign * (component(state.place, axis) - bound) - setup.classes[kind].radius;
-    const double v = sign * component(state.velocity, axis), g = sign * setup.gravity[axis];
-    const double dt = side.moves()
-                          ? laws::oscillating_wall_time(gap, v, g, side.motion, epoch + state.time, never)
-                          : laws::flat_wall_time(gap, v, g);
-    return state.time + dt;
+    double gap =
+        sign * (component(state.place, axis) - bound) - radius * (setup.scale + setup.growth * state.time);
+    double v = sign * component(state.velocity, axis) - radius * setup.growth;
+    const double g = sign * setup.gravity[axis];
+    if (side.oscillates())
+        return state.time + laws::oscillating_wall_time(gap, v, g, side.motion, epoch + state.time, never);
+    if (side.speed != 0) {
+        gap -= side.speed * (epoch + state.time);
+        v -= side.speed;
+    }
+    return state.time + laws::flat_wall_time(gap, v, g);
+}
+
+Vector<double> from_centre(const Setup& setup, const Curved& curved, const Vector<double>& place) {
+    Vector<double> r{place.x - curved.center[0], place.y - curved.center[1], place.z - curved.center[2]};
+    if (setup.dimension == 2) r.z = 0;
+    if (curved.axis >= 0) component(r, curved.axis) = 0;
+    return r;
+}
+
+std::vector<Vector<double>> kicks(const Setup& setup, const std::vector<std::uint32_t>& kinds,
+                                  std::int64_t number) {
+    const double deviation = std::sqrt(setup.kicks * setup.kick_interval);
+    std::vector<Vector<double>> all(kinds.size());
+    Vector<double> momentum{0, 0, 0};
+    double mass = 0;
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        const auto normals = [&](std::uint32_t block) {
+            const auto w = philox(
+                {block, static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(number), kick_stream},
+                {static_cast<std::uint32_t>(setup.seed), static_cast<std::uint32_t>(setup.seed >> 32)});
+            return laws::normal_pair(unit_number(w[0], w[1]), unit_number(w[2], w[3]));
+        };
+        const auto xy = normals(0);
+        all[n] = {deviation * xy[0], deviation * xy[1],
+                  setup.dimension == 3 ? deviation * normals(1)[0] : 0.0};
+        const double m = setup.classes[kinds[n]].mass;
+        momentum = momentum + m * all[n];
+        mass += m;
+    }
+    for (Vector<double>& v : all) v = v - (1 / mass) * momentum;
+    return all;
 }
 
 namespace {
 
-// Sent back with the temperature of the wall.
-void emit(const Setup& setup, Body& body, const WallHit& hit, double wall_speed) {
-    const Side& side = setup.side[hit.axis][hit.upper];
-    const Class& c = setup.classes[body.kind];
+// What a heated wall sends a particle back with.
+struct Emission {
+    bool accommodates = false; // else it is reflected elastically
+    double normal = 0;         // m/s, away from the wall
+    std::array<double, 2> along{};
+    Vector<double> spin{0, 0, 0}; // rough particles
+};
+
+Emission emission(const Setup& setup, const Side& side, const Class& c, const WallHit& hit) {
     const auto draw = [&](std::uint32_t block) {
         const auto w =
             philox({4 * hit.count + block, hit.id, 0, wall_stream},
                    {static_cast<std::uint32_t>(setup.seed), static_cast<std::uint32_t>(setup.seed >> 32)});
         return std::array<double, 2>{unit_number(w[0], w[1]), unit_number(w[2], w[3])};
     };
-    const double sign = hit.upper == 0 ? 1 : -1;
     const auto [u, accommodates] = draw(0);
-    double& normal = component(body.velocity, hit.axis);
-    if (accommodates >= side.accommodation) {
-        normal = sign * (2 * wall_speed - sign * normal);
-        return;
-    }
+    Emission e;
+    e.accommodates = accommodates < side.accommodation;
+    if (!e.accommodates) return e;
     const double speed = std::sqrt(side.temperature / c.mass);
-    normal = sign * (wall_speed + speed * laws::flux_speed(u));
+    e.normal = speed * laws::flux_speed(u);
     const auto [u1, w1] = draw(1);
     const auto along = laws::normal_pair(u1, w1);
-    for (int d = 0, n = 0; d < setup.dimension; ++d)
-        if (d != hit.axis)
-            component(body.velocity, d) = side.velocity[d] + speed * along[static_cast<std::size_t>(n++)];
-    if (!setup.rough) return;
+    e.along = {speed * along[0], speed * along[1]};
+    if (!setup.rough) return e;
     const double spin = speed / (std::sqrt(c.inertia) * c.radius);
     const auto [u2, w2] = draw(2);
     const auto first = laws::normal_pair(u2, w2);
     if (setup.dimension == 2) {
-        body.spin.z = spin * first[0];
-        return;
+        e.spin = {0, 0, spin * first[0]};
+        return e;
     }
     const auto [u3, w3] = draw(3);
-    body.spin = {spin * first[0], spin * first[1], spin * laws::normal_pair(u3, w3)[0]};
+    e.spin = {spin * first[0], spin * first[1], spin * laws::normal_pair(u3, w3)[0]};
+    return e;
 }
 
-void reflect(const Setup& setup, Body& body, const WallHit& hit, double wall_speed, bool elastic) {
-    const Side& side = setup.side[hit.axis][hit.upper];
+void emit(const Setup& setup, const Side& side, Body& body, const WallHit& hit, double wall_speed) {
+    const double sign = hit.wall % 2 == 0 ? 1 : -1;
+    const int axis = hit.wall / 2;
+    const Emission e = emission(setup, side, setup.classes[body.kind], hit);
+    double& normal = component(body.velocity, axis);
+    if (!e.accommodates) {
+        normal = sign * (2 * wall_speed - sign * normal);
+        return;
+    }
+    normal = sign * (wall_speed + e.normal);
+    for (int d = 0, n = 0; d < setup.dimension; ++d)
+        if (d != axis)
+            component(body.velocity, d) = side.velocity[d] + e.along[static_cast<std::size_t>(n++)];
+    if (setup.rough) body.spin = e.spin;
+}
+
+// From a wall at rest, with the normal e.
+void reflect(const Setup& setup, const Side& side, Body& body, const Vector<double>& e, bool elastic) {
     const Class& c = setup.classes[body.kind];
-    const double sign = hit.upper == 0 ? 1 : -1;
-    double& normal = component(body.velocity, hit.axis);
+    const double eps_n = elastic ? 1 : side.eps_n;
+    if (!setup.rough || side.eps_t == 1 || elastic) {
+        body.velocity = body.velocity + laws::smooth_impulse(min(dot(body.velocity, e), 0.0), e, eps_n);
+        return;
+    }
+    const Vector<double> g = body.velocity - cross(c.radius * body.spin, e);
+    const Vector<double> push = laws::impulse(g, e, eps_n, side.eps_t, c.inertia / (1 + c.inertia));
+    body.velocity = body.velocity + push;
+    body.spin = body.spin - (1 / (c.inertia * c.radius)) * cross(e, push);
+}
+
+WallEffect meet_curved(const Setup& setup, Body& body, const WallHit& hit) {
+    const Curved& curved = setup.curved[static_cast<std::size_t>(hit.wall - 6)];
+    const Side& side = curved.wall;
+    const Vector<double> r = from_centre(setup, curved, body.place);
+    const double distance = std::sqrt(dot(r, r));
+    const Vector<double> e = ((curved.container ? -1 : 1) / distance) * r;
+    const double before = kinetic(setup, body);
+    WallEffect effect;
+    effect.heated = side.kind == Side::Kind::heated;
+    if (!effect.heated) {
+        effect.elastic = hit.soon || -dot(body.velocity, e) < setup.elastic_speed;
+        reflect(setup, side, body, e, effect.elastic);
+        effect.energy = kinetic(setup, body) - before;
+        return effect;
+    }
+    const Emission out = emission(setup, side, setup.classes[body.kind], hit);
+    if (!out.accommodates) {
+        reflect(setup, side, body, e, true);
+        return effect;
+    }
+    // Two directions along the wall: of the axis that is farthest from e, in the plane of z.
+    Vector<double> axis{0, 0, 1};
+    if (setup.dimension == 3) {
+        const double x = std::abs(e.x), y = std::abs(e.y), z = std::abs(e.z);
+        axis = {0, 0, 0};
+        component(axis, x <= y && x <= z ? 0 : y <= z ? 1 : 2) = 1;
+    }
+    const Vector<double> across = cross(axis, e);
+    const Vector<double> t1 = (1 / std::sqrt(dot(across, across))) * across, t2 = cross(e, t1);
+    body.velocity = out.normal * e + out.along[0] * t1;
+    if (setup.dimension == 3) body.velocity = body.velocity + out.along[1] * t2;
+    if (setup.rough) body.spin = out.spin;
+    effect.energy = kinetic(setup, body) - before;
+    return effect;
+}
+
+void reflect(const Setup& setup, const Side& side, Body& body, const WallHit& hit, double wall_speed,
+             bool elastic) {
+    const Class& c = setup.classes[body.kind];
+    const double sign = hit.wall % 2 == 0 ? 1 : -1;
+    double& normal = component(body.velocity, hit.wall / 2);
     const double eps_n = elastic ? 1 : side.eps_n;
     if (!setup.rough || side.eps_t == 1 || elastic) {
         normal = sign * (wall_speed - eps_n * min(sign * normal - wall_speed, 0.0));
         return;
     }
     Vector<double> e{0, 0, 0}, wall{side.velocity[0], side.velocity[1], side.velocity[2]};
-    component(e, hit.axis) = sign;
-    component(wall, hit.axis) = sign * wall_speed;
+    component(e, hit.wall / 2) = sign;
+    component(wall, hit.wall / 2) = sign * wall_speed;
     const Vector<double> g = body.velocity - wall - cross(c.radius * body.spin, e);
     const Vector<double> push = laws::impulse(g, e, eps_n, side.eps_t, c.inertia / (1 + c.inertia));
     body.velocity = body.velocity + push;
@@ -139,18 +255,20 @@ void reflect(const Setup& setup, Body& body, const WallHit& hit, double wall_spe
 } // namespace
 
 WallEffect meet_wall(const Setup& setup, Body& body, const WallHit& hit) {
-    const Side& side = setup.side[hit.axis][hit.upper];
-    const double speed = side.moves() ? side.motion.velocity(hit.now) : 0.0;
+    if (hit.wall >= 6) return meet_curved(setup, body, hit);
+    const Side& side = setup.side[hit.wall / 2][hit.wall % 2];
+    const double speed = (side.oscillates() ? side.motion.velocity(hit.now) : side.speed) +
+                         setup.classes[body.kind].radius * setup.growth;
     const double before = kinetic(setup, body);
     WallEffect effect;
     effect.heated = side.kind == Side::Kind::heated;
     if (effect.heated) {
-        emit(setup, body, hit, speed);
+        emit(setup, side, body, hit, speed);
     } else {
-        const double sign = hit.upper == 0 ? 1 : -1;
-        const double toward = speed - sign * component(body.velocity, hit.axis);
+        const double sign = hit.wall % 2 == 0 ? 1 : -1;
+        const double toward = speed - sign * component(body.velocity, hit.wall / 2);
         effect.elastic = hit.soon || toward < setup.elastic_speed;
-        reflect(setup, body, hit, speed, effect.elastic);
+        reflect(setup, side, body, hit, speed, effect.elastic);
     }
     effect.energy = kinetic(setup, body) - before;
     return effect;

@@ -5,6 +5,8 @@
 #include "laws/collision.hpp"
 #include "laws/pair_time.hpp"
 
+#include <vector>
+
 namespace sandlane::edmd {
 
 // A particle at the time of an event.
@@ -39,16 +41,16 @@ SANDLANE_INLINE Impact collide_plain(double eps, double reach, Body& i, Body& j,
 }
 
 // The image of j that is `shift` away. soon: one of them had another collision less than the contact time
-// ago.
-Impact collide(const Setup& setup, Body& i, Body& j, const Vector<double>& shift, bool soon);
+// ago. now: since the start of the epoch.
+Impact collide(const Setup& setup, Body& i, Body& j, const Vector<double>& shift, bool soon, double now);
 
-// Time of the contact with a side, from the state of the particle; never_meets if there is none. epoch: time
+// Time of the contact with a wall, from the state of the particle; never_meets if there is none. epoch: time
 // of the clock at state.time = 0.
 [[nodiscard]] double wall_time(const Setup& setup, const laws::Flight<double>& state, std::uint32_t kind,
-                               int axis, int upper, double epoch);
+                               int wall, double epoch);
 
 struct WallHit {
-    int axis, upper;
+    int wall;
     double now;          // of the clock, s
     std::uint32_t id;    // of the particle
     std::uint32_t count; // heated walls that it met before
@@ -60,5 +62,14 @@ struct WallEffect {
     bool heated = false;
 };
 WallEffect meet_wall(const Setup& setup, Body& body, const WallHit& hit);
+
+// From the axis or centre of a curved wall to a place; without what lies along the axis.
+[[nodiscard]] Vector<double> from_centre(const Setup& setup, const Curved& curved,
+                                         const Vector<double>& place);
+
+// One kick of white noise: what it adds to the velocities of all particles, by id. Stream 3 of the
+// specification of Monte Carlo; without mean momentum. number: of the kick.
+[[nodiscard]] std::vector<Vector<double>> kicks(const Setup& setup, const std::vector<std::uint32_t>& kinds,
+                                                std::int64_t number);
 
 } // namespace sandlane::edmd

@@ -23,7 +23,23 @@ Side side_of(const scene::GasSide& from) {
     side.accommodation = from.accommodation;
     analysis::copy(from.velocity, side.velocity);
     side.motion = analysis::oscillation_of(from);
+    side.speed = from.speed;
     return side;
+}
+
+Curved curved_of(const scene::CurvedWall& from, int dimension) {
+    Curved c;
+    analysis::copy(from.center, c.center);
+    c.radius = from.radius;
+    c.axis = from.shape == scene::CurvedShape::cylinder ? static_cast<int>(from.axis) : -1;
+    c.container = from.gas == scene::CurvedGas::inside;
+    c.wall.kind = from.kind == scene::SideKind::heated ? Side::Kind::heated : Side::Kind::reflecting;
+    c.wall.eps_n = from.restitution;
+    c.wall.eps_t = from.tangential_restitution;
+    c.wall.temperature = from.temperature;
+    c.wall.accommodation = from.accommodation;
+    if (dimension == 2) c.center[2] = 0;
+    return c;
 }
 
 Setup setup_of(const scene::Scene& scene) {
@@ -39,6 +55,9 @@ Setup setup_of(const scene::Scene& scene) {
         const auto n = static_cast<std::size_t>(side.side);
         s.side[n / 2][n % 2] = side_of(side);
     }
+    for (const scene::CurvedWall& wall : scene.curved_walls) s.curved.push_back(curved_of(wall, s.dimension));
+    s.kicks = scene.edmd.heating;
+    s.kick_interval = scene.edmd.heating_interval;
     const double q = analysis::inertia_of(gas.body);
     s.classes = {{0.5 * gas.diameter, gas.mass, q}};
     for (const scene::Species& more : scene.species) s.classes.push_back({0.5 * more.diameter, more.mass, q});
@@ -61,14 +80,44 @@ double highest_temperature(const scene::Scene& scene, const Setup& s) {
             const double speed = 2 * std::numbers::pi * side.motion.frequency * side.motion.amplitude;
             highest = std::max({highest, side.temperature, scene.gas.mass * speed * speed});
         }
+    for (const Curved& c : s.curved) highest = std::max(highest, c.wall.temperature);
     return highest;
 }
 
-bool has_room_for_cells(const Setup& s) {
-    for (int d = 0; d < s.dimension; ++d)
-        if (s.periodic[d] && s.length(d) < 3.000001 * std::max(2 * s.largest_radius(), s.cell_edge))
-            return false;
-    return true;
+// Where white noise and collisions balance, J; 0: they do not.
+double steady_temperature(const analysis::HardGas& gas, const Setup& s) {
+    const double loss = 1 - s.restitution.eps * s.restitution.eps;
+    if (s.restitution.model != laws::Restitution::Model::constant || loss == 0) return 0;
+    return std::pow(gas.mass * s.kicks * s.dimension / (analysis::collision_rate(gas, 1) * loss), 2.0 / 3);
+}
+
+void choose_kicks(const scene::Scene& scene, Plan& plan) {
+    Setup& s = plan.setup;
+    if (s.kicks == 0) return;
+    const analysis::HardGas gas = gas_of(plan);
+    const double hottest = std::max(highest_temperature(scene, s), steady_temperature(gas, s));
+    const double rate = analysis::collision_rate(gas, hottest);
+    if (s.kick_interval == 0) {
+        s.kick_interval = 0.05 / rate;
+        plan.chosen.push_back(fmt::format("a kick of the thermostat every {:.4g} s", s.kick_interval));
+    } else if (s.kick_interval * rate > 0.1) {
+        plan.warnings.push_back(
+            fmt::format("edmd.heating_interval is {:.2g} of the time between two collisions, "
+                        "more than 0.1: kicks are no white noise",
+                        s.kick_interval * rate));
+    }
+}
+
+void check_curved(const Plan& plan) {
+    const Setup& s = plan.setup;
+    const double most = s.dimension == 3 ? 0.7405 : 0.9069, volume = s.volume();
+    if (s.curved.empty()) return;
+    if (!(volume > 0) || packing_fraction(s, plan.amounts) > most)
+        fail(Exit::invalid_input,
+             "gas: curved walls leave {:.4g} m^{} for {} particles; the packing fraction may be up to {}. "
+             "Take "
+             "fewer or smaller ones, or a larger container",
+             volume, s.dimension, plan.particles(), most);
 }
 
 // Events until the end: from theory where the gas is homogeneous and cools, else at the rate of the start.
@@ -89,6 +138,7 @@ void expect_events(const scene::Scene& scene, Plan& plan) {
     plan.events = std::max(1.0, events);
     plan.duration = scene.edmd.duration;
     if (plan.duration == 0) plan.duration = rate > 0 ? 2 * events / (n * rate) : 1;
+    plan.first_output = rate > 0 ? std::min(1 / rate, plan.duration) : plan.duration;
 }
 
 void say_what_is_skipped(Plan& plan) {
@@ -102,6 +152,7 @@ void say_what_is_skipped(Plan& plan) {
     skip(s.classes.size() == 1, "classes: all particles are equal");
     skip(!s.has_walls(), "walls: all sides are periodic");
     skip(!s.falls(), "gravity");
+    skip(s.kicks == 0, "thermostat");
     skip(s.contact_time == 0 && s.elastic_speed == 0, "rules against inelastic collapse");
 }
 
@@ -149,6 +200,7 @@ analysis::HardGas gas_of(const Plan& plan) {
     gas.mass = s.classes[0].mass;
     gas.diameter = 2 * s.classes[0].radius;
     gas.restitution = s.restitution;
+    gas.kicks = s.kicks;
     return gas;
 }
 
@@ -178,7 +230,7 @@ Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& thr
     for (const scene::Species& more : scene.species)
         plan.amounts.push_back(static_cast<std::uint32_t>(more.particles));
     const Setup& s = plan.setup;
-    const bool room = has_room_for_cells(s);
+    const bool room = s.has_room_for_cells();
     using scene::EventAlgorithm;
     if (scene.edmd.algorithm == EventAlgorithm::improved && !room)
         fail(Exit::invalid_input, "edmd.algorithm = \"improved\": the domain must have room for three cells "
@@ -194,6 +246,8 @@ Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& thr
              plan.particles());
     if (threads.automatic && plan.particles() < 10000) plan.threads = 1;
     plan.homogeneous = s.is_plain() || (s.classes.size() == 1 && !s.rough && !s.has_walls() && !s.falls());
+    check_curved(plan);
+    choose_kicks(scene, plan);
     expect_events(scene, plan);
     say_what_is_skipped(plan);
     warn(scene, plan);
@@ -208,8 +262,9 @@ double memory_bytes(const Plan& plan) {
 }
 
 std::unique_ptr<Algorithm> start(const scene::Scene& scene, const Plan& plan, simd::Isa isa) {
+    const Start start{static_cast<Start::Kind>(scene.edmd.start), scene.edmd.growth_rate, plan.threads};
     const std::vector<Particle> particles =
-        make_particles(plan.setup, plan.amounts, scene.gas.temperature, scene.gas.spin_temperature);
+        make_particles(plan.setup, plan.amounts, scene.gas.temperature, scene.gas.spin_temperature, start);
     if (plan.simple) return std::make_unique<SimpleAlgorithm>(plan.setup, particles);
     return std::make_unique<Simulation>(plan.setup, particles, isa, plan.threads);
 }
@@ -236,6 +291,11 @@ std::string describe(const scene::Scene& scene, const Plan& plan) {
     text += "\nPlan\n";
     line("engine", fmt::format("edmd, {} dimensions, {} algorithm", s.dimension == 3 ? "three" : "two",
                                plan.simple ? "simple" : "improved"));
+    static constexpr const char* starts[] = {"random where there is room, else a lattice", "random",
+                                             "a lattice", "by growth of the radii"};
+    line("start", starts[static_cast<std::size_t>(scene.edmd.start)]);
+    if (!s.curved.empty()) line("curved walls", fmt::format("{}", s.curved.size()));
+    if (s.kicks > 0) line("thermostat", fmt::format("white noise, kicks every {:.4g} s", s.kick_interval));
     line("kernels", plan.simple ? "none" : std::string(simd::isa_name(plan.isa)));
     line("threads",
          fmt::format("{}, to predict all events at once; events are taken one by one", plan.threads));

@@ -23,6 +23,7 @@ struct Plan {
     bool simple = false;      // the simple algorithm
     double events = 0;        // about so many
     double duration = 0;      // about so long, s
+    double first_output = 0;  // the mean time between two collisions of a particle at the start, s
     bool homogeneous = false; // nothing acts but collisions of equal smooth particles: theory has a curve
     std::vector<std::string> chosen, skipped, warnings;
 

@@ -7,7 +7,7 @@ namespace sandlane::edmd {
 
 namespace {
 
-constexpr double per_bucket = 4; // entries, about
+constexpr double per_bucket = 3; // entries, about
 
 // Without the doubling of Column::resize.
 void grow(Column<QueueBlock>& column, std::size_t size) {
@@ -24,7 +24,8 @@ double key_of(const simd::HardEvents& e) {
 void Queue::restart(double now, double events, std::size_t particles) {
     particles_ = particles;
     // So that a turn of the ring takes one and a half mean waiting times.
-    buckets_ = static_cast<std::uint32_t>(std::max<std::size_t>(16, particles * 3 / 8));
+    buckets_ = static_cast<std::uint32_t>(std::max<std::size_t>(
+        16, static_cast<std::size_t>(static_cast<double>(particles) * 1.5 / per_bucket)));
     if (blocks_.size() < buckets_) blocks_ = Column<QueueBlock>(buckets_ + buckets_ / 4 + 64);
     blocks_.fill({});
     free_ = 0;
@@ -37,6 +38,7 @@ void Queue::restart(double now, double events, std::size_t particles) {
     inverse_width_ = events > 0 ? events / per_bucket : 1;
     end_ = buckets_;
     popped_ = 0;
+    deferred_.fill({});
     sorted_.clear();
     later_.clear();
 }
@@ -74,7 +76,11 @@ void Queue::take(std::uint32_t particle, simd::HardEvents* events) {
 
 bool Queue::advance(simd::HardEvents* events) {
     do {
-        if (++current_ == buckets_ && !turn(events)) return false;
+        if (++current_ == buckets_) {
+            if (!turn(events)) return false;
+        } else {
+            write_deferred(current_ + looked_ahead);
+        }
     } while (blocks_[current_].meta == 0);
     std::uint32_t block = current_;
     bool first = true;
@@ -99,6 +105,7 @@ bool Queue::advance(simd::HardEvents* events) {
 
 // All buckets are done: those that were too late for them start the next turn.
 bool Queue::turn(simd::HardEvents* events) {
+    write_deferred(nowhere - 1);
     std::vector<std::uint32_t> waiting;
     waiting.swap(later_);
     double first = simd::never_meets;

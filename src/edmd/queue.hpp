@@ -6,6 +6,7 @@
 #include "core/column.hpp"
 #include "simd/edmd/tables.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -43,7 +44,7 @@ public:
             }
             if (events.bucket == bucket) return; // stands there already
             events.bucket = bucket;
-            append(bucket, particle);
+            defer(bucket, particle);
             return;
         }
         if (!(time < simd::never_meets)) {
@@ -63,7 +64,7 @@ public:
             __builtin_prefetch(&blocks_[current_ + ahead + fetched_ahead]);
         if (current_ + ahead >= buckets_) return;
         const QueueBlock& b = blocks_[current_ + ahead];
-        for (std::uint32_t k = 0; k < (b.meta & 7); ++k) body(b.particle[k]);
+        for (std::uint32_t k = 0; k < (b.meta & 7); ++k) body(b.particle[k], current_ + ahead);
     }
 
     void pop() { sorted_.pop_back(); }
@@ -85,6 +86,21 @@ private:
         }
         sorted_[at] = entry;
     }
+    // Buckets are far from each other in memory: the line of one is fetched, and written a few entries later.
+    void defer(std::uint32_t bucket, std::uint32_t particle) {
+        __builtin_prefetch(&blocks_[bucket], 1);
+        Deferred& oldest = deferred_[turn_of_deferred_++ % deferred_most];
+        if (oldest.bucket != nowhere) append(oldest.bucket, oldest.particle);
+        oldest = {bucket, particle};
+    }
+    // Those of buckets up to `last`.
+    void write_deferred(std::uint32_t last) {
+        for (Deferred& d : deferred_) {
+            if (d.bucket > last) continue;
+            append(d.bucket, d.particle);
+            d.bucket = nowhere;
+        }
+    }
     void append(std::uint32_t bucket, std::uint32_t particle) {
         QueueBlock& b = blocks_[bucket];
         const std::uint32_t size = b.meta & 7;
@@ -96,10 +112,16 @@ private:
         ++b.meta;
     }
     void append_block(std::uint32_t bucket, std::uint32_t particle);
-    static constexpr std::uint32_t fetched_ahead = 4; // buckets
+    static constexpr std::uint32_t fetched_ahead = 4, looked_ahead = 4; // buckets
     void take(std::uint32_t particle, simd::HardEvents* events);
     [[nodiscard]] bool turn(simd::HardEvents* events);
 
+    static constexpr std::uint32_t deferred_most = 8;
+    struct Deferred {
+        std::uint32_t bucket = nowhere, particle = 0;
+    };
+    std::array<Deferred, deferred_most> deferred_{};
+    std::uint32_t turn_of_deferred_ = 0;
     Column<QueueBlock> blocks_; // the buckets, then what goes on from them
     std::uint32_t buckets_ = 0, current_ = 0, free_ = 0;
     double origin_ = 0, inverse_width_ = 1, end_ = 0; // end_: buckets_ as a number

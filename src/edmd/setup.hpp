@@ -26,8 +26,17 @@ struct Side {
     double accommodation = 1;       // heated: fraction that leaves with the temperature of the wall
     double velocity[3] = {0, 0, 0}; // along the wall, m/s
     laws::Oscillation motion;       // along the normal, into the box where positive
+    double speed = 0;               // of a piston, along the normal into the box, from t = 0 on, m/s
 
-    [[nodiscard]] bool moves() const { return motion.amplitude > 0; }
+    [[nodiscard]] bool oscillates() const { return motion.amplitude > 0; }
+};
+
+// A sphere (a circle in the plane), or a cylinder along an axis, at rest: a container or an obstacle.
+struct Curved {
+    double center[3] = {0, 0, 0}, radius = 1; // m
+    int axis = -1;                            // of a cylinder; -1: a sphere
+    bool container = true;                    // the gas is inside
+    Side wall;                                // what it does to particles; does not move
 };
 
 struct Setup {
@@ -44,13 +53,24 @@ struct Setup {
     double elastic_speed = 0;            // slower impacts are elastic, m/s
     std::uint64_t seed = 1;
     double cell_edge = 0; // m, at least; 0: chosen. Results do not depend on it
+    std::vector<Curved> curved;
+    double kicks = 0;         // white noise xi^2 of each component of velocity, m^2/s^3
+    double kick_interval = 0; // between the kicks that make it up, s
+    double scale = 1;         // of all radii at the start of the epoch
+    double growth = 0;        // of this scale, 1/s
+
+    // Numbers of walls: sides 2 axis + upper, then curved ones.
+    [[nodiscard]] int walls() const { return 6 + static_cast<int>(curved.size()); }
 
     [[nodiscard]] double length(int d) const { return upper[d] - lower[d]; }
-    [[nodiscard]] double volume() const; // m^3, m^2 in the plane
+    // That particles may be in: m^3, m^2 in the plane.
+    [[nodiscard]] double volume() const;
     [[nodiscard]] double largest_radius() const;
     [[nodiscard]] double smallest_radius() const;
     [[nodiscard]] bool falls() const { return gravity[0] != 0 || gravity[1] != 0 || gravity[2] != 0; }
     [[nodiscard]] bool has_walls() const;
+    // For three cells in every periodic direction.
+    [[nodiscard]] bool has_room_for_cells() const;
     // One class of smooth particles, constant restitution, nothing else.
     [[nodiscard]] bool is_plain() const;
 };

@@ -18,7 +18,7 @@ using simd::no_partner;
 namespace {
 
 // State of more than this is fetched ahead; below it costs more than it saves.
-constexpr std::size_t far_bytes = std::size_t{48} << 20;
+constexpr std::size_t far_bytes = std::size_t{8} << 20;
 
 } // namespace
 
@@ -26,7 +26,9 @@ Simulation::Simulation(Setup setup, const std::vector<Particle>& particles, simd
     : Algorithm(std::move(setup)), kernels_(&simd::edmd_kernels(isa)), threads_(threads),
       special_(!setup_.is_plain()) {
     const int space = setup_.dimension == 3 ? 1 : 0;
-    search_near_ = special_ ? kernels_->general[space] : kernels_->plain[space];
+    search_near_ = setup_.growth > 0 ? kernels_->growing[space]
+                   : special_        ? kernels_->general[space]
+                                     : kernels_->plain[space];
     for (const Class& c : setup_.classes) radius_.push_back(c.radius);
     states_.resize(particles.size());
     events_.resize(particles.size());
@@ -67,9 +69,11 @@ void Simulation::choose_cells() {
         if (setup_.periodic[d] && view_.count[d] < 3)
             fail(Exit::invalid_input, "the box has {} cells in a periodic direction, fewer than three",
                  view_.count[d]);
+    plane_ = std::int64_t{view_.count[0]} * view_.count[1];
     cells_.resize(static_cast<std::size_t>(cell_count_));
     view_.radius = radius_.data();
     for (int d = 0; d < 3; ++d) view_.gravity[d] = setup_.gravity[d];
+    view_.growth = setup_.growth;
 }
 
 void Simulation::place_particles(const std::vector<Particle>& particles) {
@@ -145,6 +149,7 @@ void Simulation::set_epoch_end() {
 }
 
 void Simulation::dispatch_predict_all() {
+    view_.scale = setup_.scale;
     if (setup_.dimension == 2) {
         special_ ? predict_all<2, true>() : predict_all<2, false>();
     } else {
@@ -156,7 +161,7 @@ std::int64_t Simulation::run(std::int64_t events, double until) {
     std::int64_t done = 0;
     const std::int64_t whole = events_of_epoch(states_.size());
     while (done < events) {
-        const double end = std::min(epoch_end_, clock_.until(until));
+        const double stop = std::min(epoch_end_, next_kick()), end = std::min(stop, clock_.until(until));
         now_ = clock_.now;
         const std::int64_t asked = std::min(events - done, whole - epoch_events_);
         const std::int64_t taken = setup_.dimension == 2
@@ -166,18 +171,51 @@ std::int64_t Simulation::run(std::int64_t events, double until) {
         epoch_events_ += taken;
         if (taken < asked && end < never_meets) now_ = std::max(now_, end);
         clock_.now = now_;
-        if (epoch_events_ == whole || (taken < asked && end == epoch_end_ && end < never_meets))
+        const bool stopped = taken < asked && end == stop && end < never_meets;
+        if (epoch_events_ == whole || (stopped && stop == epoch_end_))
             begin_epoch();
+        else if (stopped)
+            kick();
         else if (taken < asked)
             break;
     }
     return done;
 }
 
+Drift Simulation::drift() const {
+    Drift drift;
+    for (const std::uint32_t k : order_by_id()) {
+        const HardState& s = states_[k];
+        drift.add(setup_.classes[s.word >> 48].mass, {s.velocity[0], s.velocity[1], s.velocity[2]});
+    }
+    return drift;
+}
+
+// A kick changes all velocities; everything is predicted anew.
+void Simulation::kick() {
+    setup_.dimension == 2 ? synchronise<2>() : synchronise<3>();
+    restart_clock();
+    now_ = 0;
+    const std::vector<std::uint32_t> at = order_by_id();
+    std::vector<std::uint32_t> kinds;
+    kinds.reserve(at.size());
+    for (const std::uint32_t k : at) kinds.push_back(static_cast<std::uint32_t>(states_[k].word >> 48));
+    const std::vector<Vector<double>> given = kicks(setup_, kinds, kicks_++);
+    for (std::size_t n = 0; n < at.size(); ++n) {
+        double(&v)[3] = states_[at[n]].velocity;
+        v[0] += given[n].x, v[1] += given[n].y, v[2] += given[n].z;
+        events_[at[n]].last = no_partner;
+    }
+    const std::int64_t events = epoch_events_;
+    set_epoch_end();
+    epoch_events_ = events; // so that storage is sorted now and then
+    dispatch_predict_all();
+}
+
 void Simulation::begin_epoch() {
     setup_.dimension == 2 ? synchronise<2>() : synchronise<3>();
-    clock_.begin_epoch();
-    check_course();
+    restart_clock();
+    check_course(drift());
     now_ = 0;
     sort_by_cell();
     set_epoch_end();

@@ -65,6 +65,8 @@ private:
     void choose_cells();
     void place_particles(const std::vector<Particle>& particles);
     void begin_epoch();
+    void kick();
+    [[nodiscard]] Drift drift() const;
     void sort_by_cell();
     void set_epoch_end();
 
@@ -79,7 +81,7 @@ private:
     Column<simd::HardEvents> events_;
     Column<simd::HardCell> cells_; // and what goes on from full ones
     std::uint32_t free_cell_ = 0;
-    std::int64_t cell_count_ = 0;
+    std::int64_t cell_count_ = 0, plane_ = 0; // all, in a layer of the third direction
     double edge_[3] = {1, 1, 1};
     Column<std::int32_t> turns_;       // boxes crossed until the last fold, three for each particle
     std::vector<Vector<double>> spin_; // rough particles

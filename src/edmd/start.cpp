@@ -2,6 +2,8 @@
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
+#include "edmd/grow.hpp"
+#include "edmd/physics.hpp"
 #include "laws/wall_times.hpp"
 
 #include <algorithm>
@@ -57,6 +59,12 @@ public:
         next_.assign(particles.size(), -1);
     }
     [[nodiscard]] bool is_free(const Particle& p) const {
+        const double radius = setup_.classes[p.kind].radius;
+        for (const Curved& c : setup_.curved) {
+            const Vector<double> r = from_centre(setup_, c, {p.place[0], p.place[1], p.place[2]});
+            const double distance = std::sqrt(dot(r, r));
+            if (c.container ? distance > c.radius - radius : distance < c.radius + radius) return false;
+        }
         std::array<std::int64_t, 3> at{}, from{}, to{};
         for (std::size_t d = 0; d < 3; ++d) {
             at[d] = cell(p, d);
@@ -114,32 +122,6 @@ private:
     std::array<std::int64_t, 3> count_{};
     std::vector<std::int64_t> first_, next_;
 };
-
-// The largest ones first: the others find room between them. False: there is no room for one of them.
-bool place_at_random(const Setup& setup, std::vector<Particle>& particles) {
-    std::vector<std::size_t> order(particles.size());
-    for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return setup.classes[particles[a].kind].radius > setup.classes[particles[b].kind].radius;
-    });
-    Placed placed(setup, particles);
-    constexpr std::uint32_t most_attempts = 20000;
-    for (const std::size_t n : order) {
-        Particle& p = particles[n];
-        const Room room(setup, setup.classes[p.kind].radius);
-        std::uint32_t attempt = 0;
-        for (;; ++attempt) {
-            if (attempt == most_attempts) return false;
-            const auto xy = draw(setup, 2, p.id, attempt), z = draw(setup, 3, p.id, attempt);
-            const double unit[3] = {xy[0], xy[1], z[0]};
-            for (std::size_t d = 0; d < static_cast<std::size_t>(setup.dimension); ++d)
-                p.place[d] = room.lower[d] + unit[d] * (room.upper[d] - room.lower[d]);
-            if (placed.is_free(p)) break;
-        }
-        placed.add(n);
-    }
-    return true;
-}
 
 // Sites of a lattice of rectangular cells with two sites in the plane, four in space.
 struct Lattice {
@@ -235,11 +217,48 @@ double packing_fraction(const Setup& setup, const Amounts& amounts) {
     return sum / setup.volume();
 }
 
-void place(const Setup& setup, std::vector<Particle>& particles) {
+// The largest ones first: the others find room between them.
+bool place_at_random(const Setup& setup, std::vector<Particle>& particles) {
+    std::vector<std::size_t> order(particles.size());
+    for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return setup.classes[particles[a].kind].radius > setup.classes[particles[b].kind].radius;
+    });
+    Placed placed(setup, particles);
+    constexpr std::uint32_t most_attempts = 20000;
+    for (const std::size_t n : order) {
+        Particle& p = particles[n];
+        const Room room(setup, setup.classes[p.kind].radius);
+        std::uint32_t attempt = 0;
+        for (;; ++attempt) {
+            if (attempt == most_attempts) return false;
+            const auto xy = draw(setup, 2, p.id, attempt), z = draw(setup, 3, p.id, attempt);
+            const double unit[3] = {xy[0], xy[1], z[0]};
+            for (std::size_t d = 0; d < static_cast<std::size_t>(setup.dimension); ++d)
+                p.place[d] = room.lower[d] + unit[d] * (room.upper[d] - room.lower[d]);
+            if (placed.is_free(p)) break;
+        }
+        placed.add(n);
+    }
+    return true;
+}
+
+void place(const Setup& setup, std::vector<Particle>& particles, const Start& start) {
+    if (start.kind == Start::Kind::growth) return grow(setup, particles, start.growth_rate, start.threads);
+    if (start.kind == Start::Kind::lattice) return place_on_lattice(setup, particles);
     Amounts amounts(setup.classes.size());
     for (const Particle& p : particles) ++amounts[p.kind];
     const double packing = packing_fraction(setup, amounts);
-    if (packing <= (setup.dimension == 3 ? 0.25 : 0.4) && place_at_random(setup, particles)) return;
+    const bool random = start.kind == Start::Kind::random || !setup.curved.empty();
+    const bool loose = packing <= (setup.dimension == 3 ? 0.25 : 0.4);
+    if ((random || loose) && place_at_random(setup, particles)) return;
+    if (random)
+        fail(Exit::invalid_input,
+             "gas: {} particles, packing fraction {:.4g}, find no room at random{}. Take fewer or smaller "
+             "ones, or "
+             "a larger domain{}",
+             particles.size(), packing, setup.curved.empty() ? "" : " between curved walls",
+             setup.curved.empty() ? "; or edmd.start = \"growth\"" : "");
     place_on_lattice(setup, particles);
 }
 
@@ -278,7 +297,7 @@ void heat(const Setup& setup, std::vector<Particle>& particles, double temperatu
 }
 
 std::vector<Particle> make_particles(const Setup& setup, const Amounts& amounts, double temperature,
-                                     double spin_temperature) {
+                                     double spin_temperature, const Start& start) {
     std::vector<Particle> particles;
     for (std::uint32_t kind = 0; kind < amounts.size(); ++kind)
         for (std::uint32_t n = 0; n < amounts[kind]; ++n) {
@@ -287,7 +306,7 @@ std::vector<Particle> make_particles(const Setup& setup, const Amounts& amounts,
             p.kind = kind;
             particles.push_back(p);
         }
-    place(setup, particles);
+    place(setup, particles, start);
     heat(setup, particles, temperature, spin_temperature);
     return particles;
 }

@@ -32,6 +32,28 @@ SANDLANE_INLINE R meeting(const Vector<R>& r, const Vector<R>& v, const R& reach
     return select(approach, met, never);
 }
 
+// The same for radii that grow: their sum is `reach` now and grows with `speed` [m/s]. Particles that recede
+// more slowly than that meet, too.
+template <int dimension, class R>
+SANDLANE_INLINE R growing_meeting(const Vector<R>& r, const Vector<R>& v, const R& reach, const R& speed,
+                                  const R& never) {
+    R a = v.x * v.x + v.y * v.y, b = r.x * v.x + r.y * v.y, distance = r.x * r.x + r.y * r.y;
+    if constexpr (dimension == 3) {
+        a = dot(v, v);
+        b = dot(r, v);
+        distance = dot(r, r);
+    }
+    a = a - speed * speed;
+    b = b - reach * speed;
+    const R c = max(distance - reach * reach, R(0.0)), under = b * b - a * c;
+    const R root = sqrt(max(under, R(0.0)));
+    const auto approach = b < R(0.0), reached = under >= R(0.0), overtaken = a < R(0.0);
+    const R sooner = c / select(approach, root - b, R(1.0));
+    const R later = (b + root) / select(overtaken, -a, R(1.0));
+    const R met = select(approach, select(reached, sooner, never), select(overtaken, later, never));
+    return select(distance > R(0.0), met, never); // nothing meets itself
+}
+
 // Whether surfaces touch, but for rounding: how one knows the image with which a particle has just collided.
 inline bool touches(const Vector<double>& r, double reach) {
     return dot(r, r) <= (1 + 1e-9) * (reach * reach);
@@ -62,24 +84,45 @@ SANDLANE_INLINE void fly(Flight<R>& f, const R& dt, const Vector<R>& field) {
     }
 }
 
-// Time of the contact of i with the image of j that is `shift` away: both are flown to the later of their two
-// times, then as above.
+// Relative place and velocity of i and the image of j that is `shift` away, at `base`, the later of their two
+// times.
+template <class R> struct Relative {
+    Vector<R> place, velocity;
+    R base;
+};
 template <int dimension, bool falls, class R>
-SANDLANE_INLINE R pair_time(Flight<R> i, Flight<R> j, const Vector<R>& shift, const R& reach,
-                            const Vector<R>& field, const R& never) {
-    const R base = max(i.time, j.time);
-    fly<dimension, falls>(i, base - i.time, field);
-    fly<dimension, falls>(j, base - j.time, field);
-    Vector<R> r, v;
-    r.x = (i.place.x - j.place.x) - shift.x;
-    r.y = (i.place.y - j.place.y) - shift.y;
-    v.x = i.velocity.x - j.velocity.x;
-    v.y = i.velocity.y - j.velocity.y;
+SANDLANE_INLINE Relative<R> relative(Flight<R> i, Flight<R> j, const Vector<R>& shift,
+                                     const Vector<R>& field) {
+    Relative<R> p;
+    p.base = max(i.time, j.time);
+    fly<dimension, falls>(i, p.base - i.time, field);
+    fly<dimension, falls>(j, p.base - j.time, field);
+    p.place.x = (i.place.x - j.place.x) - shift.x;
+    p.place.y = (i.place.y - j.place.y) - shift.y;
+    p.velocity.x = i.velocity.x - j.velocity.x;
+    p.velocity.y = i.velocity.y - j.velocity.y;
     if constexpr (dimension == 3) {
-        r.z = (i.place.z - j.place.z) - shift.z;
-        v.z = i.velocity.z - j.velocity.z;
+        p.place.z = (i.place.z - j.place.z) - shift.z;
+        p.velocity.z = i.velocity.z - j.velocity.z;
     }
-    return base + meeting<dimension>(r, v, reach, never);
+    return p;
+}
+
+// Time of their contact.
+template <int dimension, bool falls, class R>
+SANDLANE_INLINE R pair_time(const Flight<R>& i, const Flight<R>& j, const Vector<R>& shift, const R& reach,
+                            const Vector<R>& field, const R& never) {
+    const Relative<R> p = relative<dimension, falls>(i, j, shift, field);
+    return p.base + meeting<dimension>(p.place, p.velocity, reach, never);
+}
+
+// The same for radii scale + growth t times as large.
+template <int dimension, class R>
+SANDLANE_INLINE R growing_pair_time(const Flight<R>& i, const Flight<R>& j, const Vector<R>& shift,
+                                    const R& reach, const R& scale, const R& growth, const R& never) {
+    const Relative<R> p = relative<dimension, false>(i, j, shift, Vector<R>{});
+    return p.base + growing_meeting<dimension>(p.place, p.velocity, reach * (scale + growth * p.base),
+                                               reach * growth, never);
 }
 
 } // namespace sandlane::laws

@@ -2,6 +2,8 @@
 // dynamics and direct simulation Monte Carlo.
 #pragma once
 
+#include "core/vector.hpp"
+
 #include <array>
 #include <cstdint>
 
@@ -10,6 +12,13 @@ namespace sandlane::laws {
 // First time t >= 0 at which the gap h + v t + g t^2/2 to a wall at rest closes (h: distance of the surfaces,
 // v and g: along the normal into the gas) [m, m/s, m/s^2 -> s]; infinity if never. A gap h <= 0 counts as 0.
 [[nodiscard]] double flat_wall_time(double h, double v, double g);
+
+// First time at which a particle that flies freely comes to the distance D from a centre, from outside, or
+// from inside (container): r its place from the centre, v, and the field g. A distance that rounding has
+// passed already counts as D: now if it goes on, else when it comes back. Without a field in closed form
+// (specification of event-driven dynamics, 7.7), in a field the first root of the quartic.
+[[nodiscard]] double curved_wall_time(const Vector<double>& r, const Vector<double>& v,
+                                      const Vector<double>& g, double distance, bool container);
 
 // A wall that moves along its normal: displacement B sin(2 pi (frequency t + phase)).
 struct Oscillation {

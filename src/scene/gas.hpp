@@ -43,6 +43,21 @@ struct GasSide {
     double amplitude = 0;     // m: oscillates along its normal
     double frequency = 0;     // 1/s
     double phase = 0;         // rad
+    double speed = 0;         // along its normal, towards the gas, m/s
+};
+
+// A sphere (a circle in the plane) or a cylinder that encloses the gas, or stands in it.
+enum class CurvedShape { sphere, cylinder };
+enum class CurvedGas { inside, outside };
+struct CurvedWall {
+    CurvedShape shape = CurvedShape::sphere;
+    CurvedGas gas = CurvedGas::inside;
+    Vec center;
+    double radius = 0;
+    GasAxis axis = GasAxis::z; // of a cylinder
+    SideKind kind = SideKind::reflecting;
+    double restitution = 1, tangential_restitution = 1;
+    double temperature = 0, accommodation = 1; // heated
 };
 
 enum class CollisionScheme {
@@ -83,14 +98,20 @@ struct GasPair {
 };
 
 enum class EventAlgorithm { automatic, improved, simple };
+enum class EventStart { automatic, random, lattice, growth };
+enum class EventSpacing { time, log_time, events };
 
 struct Edmd {
     EventAlgorithm algorithm = EventAlgorithm::automatic;
     double duration = 0;
-    std::int64_t events = 0;                   // the run ends after so many; 0: only by its duration
-    double contact_time = 0;                   // s: sooner collisions are elastic
-    double elastic_speed = 0;                  // m/s: slower impacts are elastic
-    double cell_edge = 0;                      // m; 0: chosen
+    std::int64_t events = 0; // the run ends after so many; 0: only by its duration
+    EventStart start = EventStart::automatic;
+    double growth_rate = 0.05;                // of radii, in units of the thermal speed
+    double heating = 0, heating_interval = 0; // white noise xi^2, m^2/s^3; s between kicks, 0: chosen
+    double contact_time = 0;                  // s: sooner collisions are elastic
+    double elastic_speed = 0;                 // m/s: slower impacts are elastic
+    double cell_edge = 0;                     // m; 0: chosen
+    EventSpacing output_spacing = EventSpacing::time;
     double sample_every = 0, sample_start = 0; // s
     GasAxis profile_axis = GasAxis::x;
     std::int64_t profile_bins = 20;

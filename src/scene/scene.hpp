@@ -266,6 +266,7 @@ struct Scene {
     PipeFlow pipe_flow;
     Gas gas;
     std::vector<GasSide> sides;
+    std::vector<CurvedWall> curved_walls;
     Dsmc dsmc;
     std::vector<Species> species;
     std::vector<GasPair> gas_pairs;

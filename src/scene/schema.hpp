@@ -124,6 +124,7 @@ const Table<Dsmc>& dsmc_table();
 const Table<Species>& species_table();
 const Table<GasPair>& gas_pair_table();
 const Table<Edmd>& edmd_table();
+const Table<CurvedWall>& curved_wall_table();
 const Table<AnalysisSpec>& analysis_table();
 const Table<Output>& output_table();
 const Table<Scene>& scene_table(); // the keys outside any table

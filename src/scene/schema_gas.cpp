@@ -84,7 +84,31 @@ const Table<GasSide>& side_table() {
             .number("amplitude", &GasSide::amplitude, Unit::length, not_negative(),
                     "oscillates along its normal, towards the gas first")
             .number("frequency", &GasSide::frequency, Unit::rate, not_negative(), "of the oscillation")
-            .number("phase", &GasSide::phase, Unit::angle, any, "of the oscillation");
+            .number("phase", &GasSide::phase, Unit::angle, any, "of the oscillation")
+            .number("speed", &GasSide::speed, Unit::speed, any,
+                    "edmd: a piston that moves steadily along its normal, towards the gas where positive");
+    return table;
+}
+
+const Table<CurvedWall>& curved_wall_table() {
+    static const Table<CurvedWall> table =
+        Table<CurvedWall>(
+            "Walls at rest that enclose the gas or stand in it. They must lie in the domain, and not "
+            "across a periodic direction.")
+            .choice("shape", &CurvedWall::shape, {"sphere", "cylinder"}, "in the plane a sphere is a circle")
+            .choice("gas", &CurvedWall::gas, {"inside", "outside"}, "a container, or an obstacle")
+            .vector("center", &CurvedWall::center, Unit::length, "of a cylinder any point of its axis")
+            .required()
+            .number("radius", &CurvedWall::radius, Unit::length, positive(), "of the wall")
+            .required()
+            .choice("axis", &CurvedWall::axis, {"x", "y", "z"}, "of a cylinder")
+            .choice("kind", &CurvedWall::kind, {"reflecting", "heated"}, "as for sides")
+            .number("restitution", &CurvedWall::restitution, Unit::none, between(0, 1), "reflecting: normal")
+            .number("tangential_restitution", &CurvedWall::tangential_restitution, Unit::none, between(-1, 1),
+                    "reflecting, rough particles: tangential")
+            .number("temperature", &CurvedWall::temperature, Unit::energy, not_negative(), "heated: above 0")
+            .number("accommodation", &CurvedWall::accommodation, Unit::none, between(0, 1),
+                    "heated: fraction that takes its temperature; the others are reflected elastically");
     return table;
 }
 
@@ -169,6 +193,20 @@ const Table<Edmd>& edmd_table() {
                     "simulated time; 0: no end by time")
             .integer("events", &Edmd::events, between(0, 9e15),
                      "the run ends after so many; 0: by its duration")
+            .choice(
+                "start", &Edmd::start, {"auto", "random", "lattice", "growth"},
+                "\"growth\": small particles placed at random that grow while they collide, for dense gases "
+                "without order; \"auto\": random where there is room, else a lattice")
+            .number("growth_rate", &Edmd::growth_rate, Unit::none, between(1e-4, 10),
+                    "growth: of the radius, in units of the thermal speed; slow growth lets dense particles "
+                    "crystallise, fast growth jams them sooner")
+            .number(
+                "heating", &Edmd::heating, Unit::heating, not_negative(),
+                "white noise xi^2: random kicks of variance xi^2 heating_interval to each velocity component")
+            .number(
+                "heating_interval", &Edmd::heating_interval, Unit::time, not_negative(),
+                "time between the kicks, each of which costs as much as a collision of every particle; 0: a "
+                "twentieth of the time between two collisions of a particle")
             .number("contact_time", &Edmd::contact_time, Unit::time, not_negative(),
                     "against inelastic collapse: a particle whose last collision was less than this ago "
                     "collides elastically; 0: never")
@@ -176,6 +214,12 @@ const Table<Edmd>& edmd_table() {
                     "against inelastic collapse: slower impacts are elastic")
             .number("cell_edge", &Edmd::cell_edge, Unit::length, not_negative(),
                     "least edge of the cells; 0: chosen. Results do not depend on it")
+            .choice(
+                "output_spacing", &Edmd::output_spacing, {"time", "log-time", "events"},
+                "intervals of outputs are counted in time, and so are those chosen as parts of the duration; "
+                "\"log-time\": log, pictures and trajectories come first after their interval (0: the mean "
+                "time between two collisions of a particle at the start), then twenty times while the time "
+                "grows tenfold; \"events\": as many events as an interval takes on the average")
             .number("sample_every", &Edmd::sample_every, Unit::time, any,
                     "frames of profile.csv and distribution.csv, averages over time; 0: duration/200, "
                     "negative: none")

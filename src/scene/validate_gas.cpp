@@ -129,8 +129,85 @@ struct GasValidator {
                    side.amplitude, 0.25 * length);
     }
 
+    void check_piston(std::size_t n) const {
+        const GasSide& side = scene.sides[n];
+        if (side.speed == 0) return;
+        if (side.amplitude > 0)
+            reject(
+                "sides[{}].speed = {} m/s: a side that oscillates does not move on as well; leave out one of "
+                "them",
+                n, side.speed);
+        if (scene.edmd.duration == 0)
+            reject("sides[{}].speed = {} m/s: a piston needs an end by time; give edmd.duration", n,
+                   side.speed);
+        const AxisOfSpace& axis = space_axes[static_cast<std::size_t>(side.side) / 2];
+        const double before = scene.domain.upper.*axis.component - scene.domain.lower.*axis.component;
+        double after = before, longest = scene.gas.diameter, particles = 0;
+        for (const GasSide& other : scene.sides)
+            if (static_cast<std::size_t>(other.side) / 2 == axis.index)
+                after -= other.speed * scene.edmd.duration;
+        particles = static_cast<double>(scene.gas.particles) *
+                    grain_content(0.5 * scene.gas.diameter, scene.domain.dimension);
+        for (const Species& more : scene.species) {
+            longest = std::max(longest, more.diameter);
+            particles += static_cast<double>(more.particles) *
+                         grain_content(0.5 * more.diameter, scene.domain.dimension);
+        }
+        const double volume =
+            content(scene.domain.upper - scene.domain.lower, scene.domain.dimension) * after / before;
+        const double most = scene.domain.dimension == 3 ? 0.7405 : 0.9069;
+        if (!(after > longest) || particles > most * volume)
+            reject("sides[{}].speed = {} m/s: at the end the gas has {:.4g} m of {:.4g} m left; allowed: "
+                   "more than "
+                   "a diameter, and a packing fraction up to {}. Take a slower piston or a shorter "
+                   "edmd.duration",
+                   n, side.speed, after, before, most);
+    }
+
+    void check_curved(std::size_t n) const {
+        const CurvedWall& wall = scene.curved_walls[n];
+        const bool cylinder = wall.shape == CurvedShape::cylinder, heated = wall.kind == SideKind::heated;
+        if (cylinder && scene.domain.dimension == 2)
+            reject("curved_walls[{}].shape: a plane has no cylinders; \"sphere\" is a circle there", n);
+        for (const AxisOfSpace& axis : axes(scene.domain.dimension)) {
+            if (cylinder && axis.index == static_cast<std::size_t>(wall.axis)) continue;
+            if (scene.domain.periodic[axis.index])
+                reject("curved_walls[{}]: the domain is periodic in {}; take it out of domain.periodic", n,
+                       axis.name);
+            const double at = wall.center.*axis.component, lower = scene.domain.lower.*axis.component,
+                         upper = scene.domain.upper.*axis.component;
+            if (at - wall.radius < lower - 1e-9 * wall.radius ||
+                at + wall.radius > upper + 1e-9 * wall.radius)
+                reject(
+                    "curved_walls[{}]: reaches from {} to {} m in {}; allowed: within the domain, {} to {} m",
+                    n, at - wall.radius, at + wall.radius, axis.name, lower, upper);
+        }
+        double longest = scene.gas.diameter;
+        for (const Species& more : scene.species) longest = std::max(longest, more.diameter);
+        if (wall.gas == CurvedGas::inside && !(2 * wall.radius > longest))
+            reject("curved_walls[{}].radius = {} m: particles of diameter {} m do not fit into it", n,
+                   wall.radius, longest);
+        if (heated != (wall.temperature > 0))
+            reject("curved_walls[{}].temperature = {}: a heated wall needs a temperature above 0 J, a "
+                   "reflecting "
+                   "one has none",
+                   n, wall.temperature);
+        const auto unused = [&](bool given, const char* key, const char* why) {
+            if (given) reject("curved_walls[{}].{}: has no effect here, {}; leave it out", n, key, why);
+        };
+        unused(heated && wall.restitution != 1, "restitution", "the wall is heated");
+        unused(heated && wall.tangential_restitution != 1, "tangential_restitution", "the wall is heated");
+        unused(!heated && wall.accommodation != 1, "accommodation", "the wall is not heated");
+        unused(!heated && scene.gas.tangential_restitution == 1 && wall.tangential_restitution != 1,
+               "tangential_restitution", "the particles are smooth");
+    }
+
     void check_dsmc() const {
         const Dsmc& d = scene.dsmc;
+        for (std::size_t n = 0; n < scene.sides.size(); ++n)
+            if (scene.sides[n].speed != 0)
+                reject("sides[{}].speed = {} m/s: pistons are known to method = \"edmd\" only; use 0", n,
+                       scene.sides[n].speed);
         double cells = 1;
         for (const AxisOfSpace& axis : axes(scene.domain.dimension))
             cells *= static_cast<double>(std::max<std::int64_t>(1, d.cells[axis.index]));
@@ -206,6 +283,17 @@ struct GasValidator {
                 reject("edmd.cell_edge = {} m: allowed: up to the length of the domain, {} m", e.cell_edge,
                        length);
         }
+        for (std::size_t n = 0; n < scene.sides.size(); ++n) check_piston(n);
+        if (scene.curved_walls.size() > 200)
+            reject("curved_walls: {} of them; allowed: up to 200", scene.curved_walls.size());
+        for (std::size_t n = 0; n < scene.curved_walls.size(); ++n) check_curved(n);
+        if (e.start != EventStart::automatic && e.start != EventStart::random && !scene.curved_walls.empty())
+            reject("edmd.start: between curved walls particles are placed at random; use \"auto\" or "
+                   "\"random\"");
+        if (e.start != EventStart::growth && e.growth_rate != 0.05)
+            reject("edmd.growth_rate = {}: has no effect here; give start = \"growth\"", e.growth_rate);
+        if (e.heating == 0 && e.heating_interval > 0)
+            reject("edmd.heating_interval = {}: has no effect here; give edmd.heating", e.heating_interval);
         if (e.duration == 0 && e.events == 0)
             reject("edmd: says no end; give duration, events or both above 0");
         if (static_cast<std::int64_t>(e.profile_axis) >= scene.domain.dimension)

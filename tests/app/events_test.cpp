@@ -2,6 +2,7 @@
 #include "program.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sandlane::test {
 
@@ -78,6 +79,39 @@ TEST_F(Events, GoOnAfterACheckpoint) {
     EXPECT_EQ(read("once/log.csv").substr(0, 300), log.substr(0, 300));
 }
 
+// The times of the rows of log.csv.
+std::vector<double> times_of(const std::string& log) {
+    std::vector<double> times;
+    for (std::size_t at = log.find('\n'); at != std::string::npos && at + 1 < log.size();
+         at = log.find('\n', at + 1))
+        times.push_back(std::stod(log.substr(at + 1)));
+    return times;
+}
+
+TEST_F(Events, OutputsFollowTheClock) {
+    write("hard.toml", hard_scene);
+    run_well({"run", "hard.toml", "--quiet", "--out", "even", "--set", "output.log_every=0.5"});
+    const auto even = times_of(read("even/log.csv"));
+    ASSERT_EQ(even.size(), 21U);
+    for (std::size_t k = 0; k < even.size(); ++k)
+        EXPECT_NEAR(even[k], 0.5 * static_cast<double>(k), 1e-6) << k;
+    run_well({"run", "hard.toml", "--quiet", "--out", "log", "--set", "output.log_every=0.1", "--set",
+              "edmd.output_spacing=log-time"});
+    const auto log = times_of(read("log/log.csv"));
+    ASSERT_EQ(log.size(), 42U); // at the start, at 0.1, and twenty for each of two decades
+    for (std::size_t k = 2; k < log.size(); ++k) EXPECT_NEAR(log[k] / log[k - 1], std::pow(10, 0.05), 1e-5);
+    // Where outputs stop the run leaves no trace in it.
+    const auto of = [&](const char* name) { return json_of(read(std::string(name) + "/summary.json")); };
+    run_well({"run", "hard.toml", "--quiet", "--out", "events", "--set", "edmd.output_spacing=events"});
+    EXPECT_EQ(of("even")["state_hash"], of("log")["state_hash"]);
+    EXPECT_EQ(of("even")["state_hash"], of("events")["state_hash"]);
+    // A checkpoint between two rows.
+    run_well(
+        {"run", "hard.toml", "--quiet", "--out", "parts", "--steps", "613", "--set", "output.log_every=0.5"});
+    run_well({"run", "--resume", latest_checkpoint("parts"), "--quiet"});
+    EXPECT_EQ(read("even/log.csv"), read("parts/log.csv"));
+}
+
 TEST_F(Events, RefuseWhatTheyCannotDo) {
     struct Case {
         std::string from, to;
@@ -95,6 +129,16 @@ TEST_F(Events, RefuseWhatTheyCannotDo) {
              {"duration = 10", "duration = 10\ncell_edge = 20", {"edmd.cell_edge", "12"}},
              {"duration = 10", "duration = 10\ncontact_time = -1", {"edmd.contact_time", "-1"}},
              {"duration = 10", "duration = 10\nalgorithm = \"fast\"", {"edmd.algorithm", "improved"}},
+             {"kind = \"heated\"", "speed = 2\nkind = \"heated\"", {"sides[0].speed", "a slower piston"}},
+             {"[edmd]",
+              "[[sides]]\nside = \"+z\"\nspeed = 1.15\n[edmd]",
+              {"sides[1].speed", "0.5 m of 12 m left"}},
+             {"[edmd]",
+              "[[curved_walls]]\ncenter = [6, 6, 6]\nradius = 5\n[edmd]",
+              {"curved_walls[0]", "periodic"}},
+             {"duration = 10", "duration = 10\nstart = \"grow\"", {"edmd.start", "growth"}},
+             {"duration = 10", "duration = 10\ngrowth_rate = 1", {"edmd.growth_rate", "start"}},
+             {"duration = 10", "duration = 10\nheating_interval = 1", {"edmd.heating_interval", "heating"}},
              {"[edmd]", "[dsmc]\ndt = 1\n[edmd]", {"dsmc", "is not read by method = \"edmd\""}},
              {"[edmd]", "[[species]]\nparticles = 3\ndiameter = 0.001\n[edmd]", {"species.diameter", "100"}},
          }) {

@@ -206,6 +206,33 @@ TEST(SlowEdmdGas, CollapseInThePlane) {
     EXPECT_GT(guarded.tally().kept, 0);
 }
 
+// Twenty spheres cooled until all that is left of their motion is the rounding of the momentum: the run ends
+// and says so, at the same event by both algorithms.
+TEST(EdmdGas, ColdestThatRoundingAllows) {
+    edmd::Setup s;
+    s.upper[0] = s.upper[1] = s.upper[2] = 12;
+    s.restitution.eps = 0.5;
+    const auto particles = edmd::make_particles(s, {20}, 1.0);
+    const auto ends = [](edmd::Algorithm& run) {
+        try {
+            run.run(100000);
+            ADD_FAILURE() << "the run did not end";
+        } catch (const Error& e) {
+            EXPECT_EQ(e.code(), Exit::unstable);
+            EXPECT_NE(std::string(e.what()).find("fly together"), std::string::npos) << e.what();
+        }
+        EXPECT_LT(temperature(run), 1e-35);
+        EXPECT_GT(run.tally().smallest_gap, -1e-10);
+        return run.log().count();
+    };
+    edmd::SimpleAlgorithm simple(s, particles);
+    const std::uint64_t events = ends(simple);
+    EXPECT_GT(events, 2000);
+    edmd::Simulation improved(s, particles, widest(), 1);
+    EXPECT_EQ(ends(improved), events);
+    EXPECT_EQ(simple.log().hash(), improved.log().hash());
+}
+
 // What the stress run of tools/bench does with 1e9 events, here with 2e6: no overlap, no drift.
 TEST(EdmdGas, StressSlow) {
     const std::uint32_t n = 10000;

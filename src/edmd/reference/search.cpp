@@ -14,7 +14,7 @@ std::int64_t image_of(const HardState& s, int d) {
     return static_cast<std::int64_t>((s.word >> 16 * d) & image_mask) - static_cast<std::int64_t>(image_zero);
 }
 
-template <int dimension, bool general>
+template <int dimension, bool general, bool grows = false>
 void search_near(const HardSearch& view, std::uint32_t i, int layer, std::uint32_t excluded,
                  HardFound& found) {
     const HardState& me = view.state[i];
@@ -27,8 +27,12 @@ void search_near(const HardSearch& view, std::uint32_t i, int layer, std::uint32
         for (int d = 0; d < dimension; ++d)
             shift[d] = static_cast<double>(image_of(me, d) - image_of(other, d) + faces[d]) * view.length[d];
         const double reach = view.radius[class_of(me)] + view.radius[class_of(other)];
-        const double time = laws::pair_time<dimension, general, double>(
-            flight_of(me), flight_of(other), {shift[0], shift[1], shift[2]}, reach, gravity, never_meets);
+        const Vector<double> apart{shift[0], shift[1], shift[2]};
+        const double time =
+            grows ? laws::growing_pair_time<dimension, double>(flight_of(me), flight_of(other), apart, reach,
+                                                               view.scale, view.growth, never_meets)
+                  : laws::pair_time<dimension, general, double>(flight_of(me), flight_of(other), apart, reach,
+                                                                gravity, never_meets);
         if (time < never_meets) add_contact(found, time, j, view.events);
     };
     const auto visit = [&](const std::int64_t(&step)[3]) {
@@ -63,7 +67,8 @@ void search_near(const HardSearch& view, std::uint32_t i, int layer, std::uint32
 const EdmdKernels& edmd_kernels_scalar();
 const EdmdKernels& edmd_kernels_scalar() {
     static const EdmdKernels table{{search_near<2, false>, search_near<3, false>},
-                                   {search_near<2, true>, search_near<3, true>}};
+                                   {search_near<2, true>, search_near<3, true>},
+                                   {search_near<2, true, true>, search_near<3, true, true>}};
     return table;
 }
 

@@ -26,6 +26,10 @@ void fly(const Setup& setup, laws::Flight<double>& f, double dt) {
 
 double pair_time(const Setup& setup, const laws::Flight<double>& i, const laws::Flight<double>& j,
                  const Vector<double>& shift, double reach) {
+    if (setup.growth > 0)
+        return setup.dimension == 2
+                   ? laws::growing_pair_time<2, double>(i, j, shift, reach, setup.scale, setup.growth, never)
+                   : laws::growing_pair_time<3, double>(i, j, shift, reach, setup.scale, setup.growth, never);
     const Vector<double> gravity = vector_of(setup.gravity);
     return setup.dimension == 2 ? laws::pair_time<2, true, double>(i, j, shift, reach, gravity, never)
                                 : laws::pair_time<3, true, double>(i, j, shift, reach, gravity, never);
@@ -47,11 +51,9 @@ SimpleAlgorithm::SimpleAlgorithm(Setup setup, const std::vector<Particle>& parti
         if (setup_.dimension == 2) s.flight.place.z = s.flight.velocity.z = 0;
     }
     pairs_.resize(states_.size() * states_.size() / 2 + 1);
-    walls_.resize(6 * states_.size());
-    double square = 0;
-    for (const State& s : states_) square = std::max(square, dot(s.flight.velocity, s.flight.velocity));
-    epoch_end_ = longest_epoch(setup_, square);
-    for (std::size_t i = 0; i < states_.size(); ++i) predict(i);
+    const auto walls = static_cast<std::size_t>(setup_.walls());
+    walls_.resize(walls * states_.size());
+    predict_all();
 }
 
 // All images around the nearest one.
@@ -62,7 +64,8 @@ SimpleAlgorithm::Next SimpleAlgorithm::next_of_pair(std::size_t i, std::size_t j
     next.first = i;
     next.second = j;
     // Two that just met do not meet again before something else happens to one of them; another image may.
-    const bool met = a.last == static_cast<std::int64_t>(j) && b.last == static_cast<std::int64_t>(i);
+    const bool met = setup_.growth == 0 && a.last == static_cast<std::int64_t>(j) &&
+                     b.last == static_cast<std::int64_t>(i);
     laws::Flight<double> p = a.flight, q = b.flight;
     fly(setup_, p, clock_.now - p.time);
     fly(setup_, q, clock_.now - q.time);
@@ -95,10 +98,10 @@ SimpleAlgorithm::Next SimpleAlgorithm::next_of_pair(std::size_t i, std::size_t j
     return next;
 }
 
-SimpleAlgorithm::Next SimpleAlgorithm::next_at_wall(std::size_t i, int side) const {
+SimpleAlgorithm::Next SimpleAlgorithm::next_at_wall(std::size_t i, int wall) const {
     const State& s = states_[i];
-    const double t = wall_time(setup_, s.flight, s.kind, side / 2, side % 2, clock_.epoch);
-    return {t, Next::Kind::wall, i, static_cast<std::size_t>(side), {}};
+    const double t = wall_time(setup_, s.flight, s.kind, wall, clock_.epoch);
+    return {t, Next::Kind::wall, i, static_cast<std::size_t>(wall), {}};
 }
 
 bool SimpleAlgorithm::before(const Next& a, const Next& b) {
@@ -117,8 +120,9 @@ SimpleAlgorithm::Next SimpleAlgorithm::earliest() const {
 void SimpleAlgorithm::predict(std::size_t i) {
     for (std::size_t j = 0; j < states_.size(); ++j)
         if (j != i) pairs_[std::max(i, j) * (std::max(i, j) - 1) / 2 + std::min(i, j)] = next_of_pair(i, j);
-    for (int side = 0; side < 2 * setup_.dimension; ++side)
-        walls_[6 * i + static_cast<std::size_t>(side)] = next_at_wall(i, side);
+    const auto walls = static_cast<std::size_t>(setup_.walls());
+    for (std::size_t wall = 0; wall < walls; ++wall)
+        walls_[walls * i + wall] = next_at_wall(i, static_cast<int>(wall));
 }
 
 Body SimpleAlgorithm::body_of(std::size_t i) const {
@@ -157,7 +161,7 @@ void SimpleAlgorithm::execute(const Next& next) {
             if (setup_.periodic[d])
                 shift[d] = static_cast<double>(next.boxes[static_cast<std::size_t>(d)]) * setup_.length(d);
         const bool soon = clock_.now - std::max(a.last_time, b.last_time) < setup_.contact_time;
-        const Impact impact = collide(setup_, i, j, vector_of(shift), soon);
+        const Impact impact = collide(setup_, i, j, vector_of(shift), soon, clock_.now);
         tally_.add(impact, setup_.classes[i.kind], setup_.classes[j.kind]);
         settle(next.first, i, static_cast<std::int64_t>(next.second));
         settle(next.second, j, static_cast<std::int64_t>(next.first));
@@ -168,10 +172,9 @@ void SimpleAlgorithm::execute(const Next& next) {
     }
     State& s = states_[next.first];
     Body body = body_of(next.first);
-    const int side = static_cast<int>(next.second);
     const bool soon = clock_.now - s.last_time < setup_.contact_time;
     const WallEffect effect =
-        meet_wall(setup_, body, {side / 2, side % 2, clock_.epoch + clock_.now, id, s.hits, soon});
+        meet_wall(setup_, body, {static_cast<int>(other), clock_.epoch + clock_.now, id, s.hits, soon});
     tally_.add(effect);
     if (effect.heated) ++s.hits;
     settle(next.first, body, -1);
@@ -179,31 +182,54 @@ void SimpleAlgorithm::execute(const Next& next) {
     predict(next.first);
 }
 
-void SimpleAlgorithm::begin_epoch() {
-    double square = 0;
+void SimpleAlgorithm::synchronise() {
     for (State& s : states_) {
         fly(setup_, s.flight, clock_.now - s.flight.time);
         fold(s);
         s.flight.time = 0;
         s.last_time -= clock_.now;
-        square = std::max(square, dot(s.flight.velocity, s.flight.velocity));
     }
-    clock_.begin_epoch();
-    check_course();
+    restart_clock();
+}
+
+void SimpleAlgorithm::predict_all() {
+    double square = 0;
+    for (const State& s : states_) square = std::max(square, dot(s.flight.velocity, s.flight.velocity));
     epoch_end_ = longest_epoch(setup_, square);
-    epoch_events_ = 0;
     for (std::size_t i = 0; i < states_.size(); ++i) predict(i);
+}
+
+void SimpleAlgorithm::begin_epoch() {
+    synchronise();
+    Drift drift;
+    for (const State& s : states_) drift.add(setup_.classes[s.kind].mass, s.flight.velocity);
+    check_course(drift);
+    epoch_events_ = 0;
+    predict_all();
+}
+
+void SimpleAlgorithm::kick() {
+    synchronise();
+    std::vector<std::uint32_t> kinds;
+    kinds.reserve(states_.size());
+    for (const State& s : states_) kinds.push_back(s.kind);
+    const std::vector<Vector<double>> given = kicks(setup_, kinds, kicks_++);
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+        states_[i].flight.velocity = states_[i].flight.velocity + given[i];
+        states_[i].last = -1;
+    }
+    predict_all();
 }
 
 std::int64_t SimpleAlgorithm::run(std::int64_t events, double until) {
     std::int64_t done = 0;
     while (done < events) {
-        const double end = std::min(epoch_end_, clock_.until(until));
+        const double stop = std::min(epoch_end_, next_kick()), end = std::min(stop, clock_.until(until));
         const Next next = earliest();
         if (!(next.time <= end) || next.time == never) {
             if (end < never) clock_.now = std::max(clock_.now, end);
-            if (end != epoch_end_ || end == never) break;
-            begin_epoch();
+            if (end != stop || end == never) break;
+            stop == epoch_end_ ? begin_epoch() : kick();
             continue;
         }
         clock_.now = std::max(clock_.now, next.time);

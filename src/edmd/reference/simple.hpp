@@ -42,7 +42,7 @@ private:
     };
 
     [[nodiscard]] Next next_of_pair(std::size_t i, std::size_t j) const;
-    [[nodiscard]] Next next_at_wall(std::size_t i, int side) const;
+    [[nodiscard]] Next next_at_wall(std::size_t i, int wall) const;
     [[nodiscard]] static bool before(const Next& a, const Next& b);
     [[nodiscard]] Next earliest() const;
     void predict(std::size_t i);
@@ -50,11 +50,14 @@ private:
     [[nodiscard]] Body body_of(std::size_t i) const;
     void settle(std::size_t i, const Body& body, std::int64_t partner);
     void fold(State& s) const;
+    void synchronise(); // all to the present, the start of an epoch
+    void predict_all();
     void begin_epoch();
+    void kick();
 
     std::vector<State> states_;
     std::vector<Next> pairs_; // of i < j: [j (j - 1)/2 + i]
-    std::vector<Next> walls_; // [6 i + side]
+    std::vector<Next> walls_; // [walls() i + wall]
 };
 
 } // namespace sandlane::edmd
