@@ -53,7 +53,8 @@ std::vector<Field> PipeStatistics::fields() const {
     const auto wide = static_cast<std::size_t>(length_);
     if (map_.empty()) return {};
     return {{"space-time", "particles per site", "", wide, map_.size() / wide, map_, false, 0,
-             fmt::format("along the pipe; time upwards, {} steps", map_every_ * map_.size() / wide)}};
+             fmt::format("along the pipe; time upwards, {} steps",
+                         static_cast<std::size_t>(map_every_) * map_.size() / wide)}};
 }
 
 std::vector<Table> PipeStatistics::tables() const {
