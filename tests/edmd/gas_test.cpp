@@ -208,7 +208,7 @@ TEST(SlowEdmdGas, CollapseInThePlane) {
 
 // Twenty spheres cooled until all that is left of their motion is the rounding of the momentum: the run ends
 // and says so, at the same event by both algorithms.
-TEST(EdmdGas, ColdestThatRoundingAllows) {
+TEST(SlowEdmdGas, ColdestThatRoundingAllows) {
     edmd::Setup s;
     s.upper[0] = s.upper[1] = s.upper[2] = 12;
     s.restitution.eps = 0.5;

@@ -228,7 +228,7 @@ TEST(EdmdWalls, VesselsHoldTheGas) {
 
 // White noise and inelastic collisions balance where theory says (specification of Monte Carlo, 10.7): at
 // n s^2 g2 = 0.1 in the plane, eps = 0.9, xi^2 = 0.01, T = 0.446. Kicks conserve the momentum.
-TEST(EdmdThermostat, WhiteNoiseHoldsATemperature) {
+TEST(SlowEdmdThermostat, WhiteNoiseHoldsATemperature) {
     const std::uint32_t n = 1000;
     const double phi = 0.0695; // n s^2 g2 = 0.1
     edmd::Setup s = test::hard_gas(2, phi, 0.9, n);
@@ -329,7 +329,7 @@ TEST(EdmdGrowth, DenseStarts) {
 }
 
 // What no order can hold jams, and that is said.
-TEST(EdmdGrowth, Jams) {
+TEST(SlowEdmdGrowth, Jams) {
     const edmd::Setup s = test::hard_gas(3, 0.70, 1, 100);
     try {
         (void)edmd::make_particles(s, {100}, 1.0, 0, {edmd::Start::Kind::growth, 1.0, 1});
