@@ -44,7 +44,7 @@ TEST(ShippedEvents, CoolAsHaffSays) {
     }
 }
 
-TEST(ShippedEvents, HardSpheresFollowCarnahanAndStarling) {
+TEST(SlowShippedEvents, HardSpheresFollowCarnahanAndStarling) {
     const Events gas("hard-spheres.toml");
     gas.to(10);
     const edmd::Tally before = gas.run->tally();
@@ -75,7 +75,7 @@ TEST(SlowShippedEvents, CollapseWithoutAContactTime) {
 
 // dT/T = -Z dV/V, with Henderson's Z, from packing fraction 0.0785 to 0.157: 2.42; 5 %: the walls take a
 // diameter of the volume, and 2000 particles.
-TEST(ShippedEvents, APistonHeatsTheGas) {
+TEST(SlowShippedEvents, APistonHeatsTheGas) {
     const Events gas("piston.toml");
     gas.to(2000);
     EXPECT_NEAR(gas.temperature(), 2.42, 0.05 * 2.42);
@@ -96,7 +96,7 @@ TEST(ShippedEvents, ARoundVessel) {
 }
 
 // Averages of 1000 discs over 200 s, a few times the relaxation: 4 %.
-TEST(ShippedEvents, WhiteNoiseHoldsTheTemperature) {
+TEST(SlowShippedEvents, WhiteNoiseHoldsTheTemperature) {
     const Events gas("driven-discs.toml");
     double sum = 0;
     for (int k = 1; k <= 100; ++k) {
@@ -108,7 +108,7 @@ TEST(ShippedEvents, WhiteNoiseHoldsTheTemperature) {
 
 // Grown and aged, spheres beyond freezing still follow the fluid of Carnahan and Starling, who say 19.9; a
 // crystal of this density has 12.
-TEST(ShippedEvents, DenseSpheresHaveNoOrder) {
+TEST(SlowShippedEvents, DenseSpheresHaveNoOrder) {
     const Events gas("dense-spheres.toml");
     gas.to(10);
     const double before = gas.run->tally().virial;
