@@ -13,9 +13,7 @@ namespace sandlane::simd {
 
 // Particles are rows of four doubles in two or three arrays:
 //   place:    x, y, z, and a word: identity in its lower half, number of the cell in its upper half
-//   velocity: vx, vy, vz, and a word: images crossed in x, y, z, 20 bits each from the lowest, and the kind
-//   in
-//             the upper four
+//   velocity: vx, vy, vz, and a word: images crossed in x, y, z, 20 bits each from the lowest, then the kind
 //   spin:     wx, wy, wz, unused; rough particles only
 // In the plane z, vz, wx and wy are zero.
 inline constexpr int gas_row = 4;

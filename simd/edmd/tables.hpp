@@ -57,7 +57,6 @@ struct HardCell {
 // Partners that are none.
 inline constexpr std::uint32_t no_partner = 0xffffffff;
 inline constexpr std::uint32_t first_wall = 0xffffff00; // + side, 2 axis + upper; then curved ones
-inline constexpr int most_curved = 200;
 [[nodiscard]] constexpr bool is_wall(std::uint32_t partner) {
     return partner >= first_wall;
 }

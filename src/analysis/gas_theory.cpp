@@ -98,7 +98,8 @@ CriticalLengths critical_lengths(int dimension, double eps, double density, doub
     const double c = dimension == 3 ? 5 / (16 * std::sqrt(pi)) : 1 / (2 * std::sqrt(pi));
     const double k = density * std::pow(diameter, d - 1) / (2 * c);
     return {2 * pi / (k * std::sqrt(2 * zeta / eta)),
-            2 * pi / (k * std::sqrt(2 * (d - 1) * zeta / ((d + 2) * (kappa - mu))))};
+            !(kappa > mu) ? infinity
+                          : 2 * pi / (k * std::sqrt(2 * (d - 1) * zeta / ((d + 2) * (kappa - mu))))};
 }
 
 std::vector<double> cooling_curve(const HardGas& gas, double temperature, const std::vector<double>& times) {

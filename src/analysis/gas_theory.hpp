@@ -30,6 +30,7 @@ struct HardGas {
 struct CriticalLengths {
     double shear, cluster;
 };
+// Infinite where the theory has none.
 [[nodiscard]] CriticalLengths critical_lengths(int dimension, double eps, double density, double diameter);
 
 // Temperature of the homogeneous gas [J] at the ascending times [s], from `temperature` at 0, after

@@ -44,6 +44,7 @@ analysis::MixtureGas mixture_of(const edmd::Plan& plan) {
         return gas;
     gas.dimension = s.dimension;
     gas.dense = true;
+    gas.kicks = s.kicks;
     for (std::size_t k = 0; k < s.classes.size(); ++k)
         gas.kinds.push_back({plan.amounts[k] / s.volume(), s.classes[k].mass, 2 * s.classes[k].radius});
     gas.restitution.assign(gas.size() * gas.size(), s.restitution.eps);
@@ -117,7 +118,8 @@ public:
             run_->restore(in.get_text());
             mark_ = mark[0];
         } catch (const Error& e) {
-            fail(e.code(), "{}: {}. Overrides by --set must keep gas, species, domain, sides and cells.",
+            fail(e.code(),
+                 "{}: {}. Overrides by --set must keep gas, species, domain, sides, cells and heating.",
                  origin, e.what());
         }
     }
@@ -229,7 +231,9 @@ std::string EdmdEngine::tell(const Decision& d) const {
     const bool pair = d.outcome == static_cast<std::uint32_t>(edmd::Event::Kind::pair);
     return fmt::format("event {} at {} s of its epoch: particle {} {}", d.step, d.time, d.first,
                        pair ? fmt::format("and particle {}", d.second)
-                            : fmt::format("at side {}{}", "-+"[d.second % 2], "xyz"[d.second / 2 % 3]));
+                       : d.second > 5
+                           ? fmt::format("at curved_walls[{}]", d.second - 6)
+                           : fmt::format("at side {}{}", "-+"[d.second % 2], "xyz"[d.second / 2 % 3]));
 }
 
 std::vector<analysis::LogColumn> EdmdEngine::log_columns() const {
@@ -296,8 +300,8 @@ std::vector<std::pair<std::string, std::string>> EdmdEngine::report_rows() const
     const edmd::Tally& t = run_->tally();
     std::vector<std::pair<std::string, std::string>> rows;
     const analysis::HardGas gas = edmd::gas_of(*plan_);
-    if (plan_->homogeneous && gas.restitution.model == laws::Restitution::Model::constant &&
-        gas.restitution.eps < 1) {
+    if (plan_->homogeneous && plan_->setup.kicks == 0 &&
+        gas.restitution.model == laws::Restitution::Model::constant && gas.restitution.eps < 1) {
         const analysis::CriticalLengths l =
             analysis::critical_lengths(gas.dimension, gas.restitution.eps, gas.density, gas.diameter);
         rows.push_back({"Critical length of vortices, of clusters",

@@ -12,8 +12,8 @@ namespace sandlane::app {
 namespace {
 
 // Pictures and trajectories are for those who ask: a gas has many particles.
-Timer asked(double every, const GasEngine& engine) {
-    return every > 0 ? Timer(every, 0, engine, Spacing::paced) : Timer();
+Timer asked(double every, const GasEngine& engine, Spacing spacing = Spacing::paced) {
+    return every > 0 ? Timer(every, 0, engine, spacing) : Timer();
 }
 
 } // namespace
@@ -23,7 +23,7 @@ GasRecorder::GasRecorder(const std::filesystem::path& folder, const GasEngine& e
     : engine_(engine), folder_(folder),
       // Averages over time need frames at equal distances.
       sample_timer_(engine.sampling().every, 200, engine, Spacing::even),
-      structure_timer_(asked(engine.sampling().structure_every, engine)),
+      structure_timer_(asked(engine.sampling().structure_every, engine, Spacing::even)),
       picture_timer_(asked(engine.scene().output.picture_every, engine)),
       trajectory_timer_(asked(engine.scene().output.trajectory_every, engine)),
       samples_(engine.make_samples()), structure_(engine.make_structure()),

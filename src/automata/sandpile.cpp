@@ -41,7 +41,9 @@ PileSweeper::PileSweeper(const PileLattice& lattice, const Means& means, bool ac
     const auto inside =
         static_cast<std::size_t>(lattice.columns * lattice.bytes - (lattice.strips - 1) * simd::strip_bytes);
     std::fill_n(reinterpret_cast<std::uint8_t*>(inner_.data()), inside, std::uint8_t{0xff});
-    changed_.resize((bands_ + 2) * (strips_ + 2), 1);
+    changed_.resize((bands_ + 2) * (strips_ + 2), 0);
+    for (std::size_t band = 1; band <= bands_; ++band)
+        std::fill_n(changed_.data() + band * (strips_ + 2) + 1, strips_, std::uint8_t{1});
     next_.resize(changed_.size(), 0);
     topplings_.resize(bands_ * strips_);
     sums_.resize(bands_);

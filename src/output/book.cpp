@@ -81,10 +81,12 @@ void BookWriter::format(const Snapshot& s, std::string& text) {
                    "#NewFrame\n#no_of_particles: {}\n#compressed: no\n#type: SphereXYPhiVxVyOmegaRMFixed25\n"
                    "#gravity: {:.17g} {:.17g} 0\n#Time: {:.17g}\n#timestep: {:.17g}\n#EndOfHeader\n",
                    records, gravity_.x, gravity_.y, s.time, dt_);
-    for (std::size_t i = 0; i < s.size(); ++i)
+    for (std::size_t i = 0; i < s.size(); ++i) {
         append_record({s.x[i], s.y[i], s.angle[i], s.vx[i], s.vy[i], s.omega[i], s.radius[i], s.mass[i], 0,
                        material(s.material[i])},
                       text);
+        pass_on(text);
+    }
     for (const WallShape& wall : s.walls)
         if (wall.kind == WallShape::Kind::disc) append_record(wall_record(wall), text);
 }

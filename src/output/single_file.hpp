@@ -28,7 +28,7 @@ protected:
 
 private:
     OutputFile file_;
-    std::string text_; // kept between frames, so that its memory is reused
+    std::string text_; // kept between frames, if it is small, so that its memory is reused
 };
 
 // -1 for an empty bookmark, else the length it holds. Throws Error(io) naming the path.

@@ -17,6 +17,8 @@ void SingleFileWriter::write(const analysis::Snapshot& snapshot) {
     format(snapshot, text_);
     file_.write(text_);
     file_.flush();
+    constexpr std::size_t kept = std::size_t{1} << 20;
+    if (text_.capacity() > kept) std::string().swap(text_);
 }
 
 void SingleFileWriter::pass_on(std::string& text) {

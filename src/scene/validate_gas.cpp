@@ -51,6 +51,14 @@ struct GasValidator {
         if (d.gravity.x != 0 || d.gravity.y != 0)
             reject("domain.shear_rate: {} and gravity along x or y: a sheared box would fall; leave out one",
                    d.shear_rate);
+        if (scene.dsmc.scheme == CollisionScheme::maxwell)
+            reject("dsmc.scheme: the rate of Maxwell molecules is that of a gas at rest; take another "
+                   "scheme, or "
+                   "leave out domain.shear_rate");
+        if (scene.dsmc.structure_every > 0)
+            reject("dsmc.structure_every: waves and clusters across a sheared side are not followed; leave "
+                   "it out, "
+                   "or domain.shear_rate");
         if (scene.dsmc.adaptive)
             reject(
                 "dsmc.adaptive: a sheared gas does not cool down; leave out adaptive or domain.shear_rate");
@@ -251,6 +259,9 @@ struct GasValidator {
                        "restitution",
                        n);
         }
+        if (kinds == 1 && !scene.gas_pairs.empty())
+            reject("gas_pairs: there is one kind of particles; give gas.restitution, or gas.dissipation, or "
+                   "[[species]]");
     }
 
     void check_edmd() const {

@@ -129,6 +129,7 @@ TEST_F(Gas, Mixtures) {
     refused("[[gas_pairs]]\nbetween = [0]", "[kind, kind]");
     refused("[[gas_pairs]]\nbetween = [0, 0]\ndissipation = 1", "not viscoelastic");
     refused("[[gas_pairs]]\nbetween = [0, 0]\n[[gas_pairs]]\nbetween = [0, 0]", "the same pair");
+    refused("[[gas_pairs]]\nbetween = [0, 0]\nrestitution = 0.6", "there is one kind of particles");
     std::string many;
     for (int n = 0; n < 16; ++n) many += "[[species]]\nparticles = 1\n";
     refused(many, "up to 15");
