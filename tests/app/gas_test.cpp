@@ -106,6 +106,15 @@ TEST_F(Gas, ComparesBitForBit) {
     }
 }
 
+TEST_F(Gas, WhatAShearedBoxCannotHave) {
+    write("gas.toml", gas_scene);
+    for (const char* change : {"dsmc.scheme=maxwell", "dsmc.structure_every=1"}) {
+        const Outcome o = run({"run", "gas.toml", "--set", "domain.shear_rate=0.1", "--set", change});
+        EXPECT_EQ(o.code, code_of(Exit::invalid_input)) << change;
+        EXPECT_SAYS(o.err, "domain.shear_rate");
+    }
+}
+
 // Kinds of particles: temperatures of each, the same bits, a checkpoint.
 TEST_F(Gas, Mixtures) {
     const std::string more = "[[species]]\nparticles = 2000\nmass = 3\ndiameter = 1.5\n\n[[gas_pairs]]\n"
