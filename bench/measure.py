@@ -39,6 +39,15 @@ def steps(cases, rounds, seconds, save):
     return found
 
 
+def in_turn(name, arguments, rounds, save):
+    """A whole program several times, so that a slow spell meets all cases alike: {case: [record of round 0, ...]}."""
+    found = {}
+    for n in range(rounds):
+        for record in program(name, arguments, f"{save}-{n}"):
+            found.setdefault(short(record["name"]), []).append(record)
+    return found
+
+
 def roofline():
     """{name: value} of everything that bench_roofline measures."""
     keys = ("per_second", "bytes_per_second", "seconds")

@@ -164,10 +164,7 @@ def events(options):
     two bounds: four loads that depend on each other per collision, at the latency measured in the same run for memory
     as large as the state; and 1.5 M/s, of compact states in spatial order."""
     arguments = [f"--benchmark_filter={options.filter}", f"--benchmark_min_time={options.seconds}"]
-    found = {}
-    for n in range(options.rounds):
-        for record in measure.program("bench_edmd", arguments, f"events-{n}"):
-            found.setdefault(measure.short(record["name"]), []).append(record)
+    found = measure.in_turn("bench_edmd", arguments, options.rounds, "events")
     print(f"{'case':<48}{'collisions/s':>13}{'spread':>8}{'crossings':>10}{'B/particle':>11}{'latency':>9}"
           f"{'of loads':>9}{'of 1.5 M':>9}")
     for name, records in found.items():
@@ -193,11 +190,9 @@ def gases(options):
     rates = [gas("spheres", n, isa, t) for n in options.particles for isa in isas for t in range(1, min(2, cpus) + 1)]
     cells = [gas(f"spheres+per_cell={n}") for n in (30, 100, 1000, 10000)]
     names = [*rates, gas("discs"), *(gas(name) for _, name in extras), *cells]
-    found = {}
-    for _ in range(options.rounds):  # all in turn, so that a slow spell meets all alike
-        arguments = [f"--benchmark_filter=^({'|'.join(n.replace('+', '.') for n in names)})/", f"--benchmark_min_time={options.seconds}"]
-        for record in measure.program("bench_dsmc", arguments, "gases"):
-            found.setdefault(measure.short(record["name"]), []).append(record)
+    arguments = [f"--benchmark_filter=^({'|'.join(n.replace('+', '.') for n in names)})/",
+                 f"--benchmark_min_time={options.seconds}"]
+    found = measure.in_turn("bench_dsmc", arguments, options.rounds, "gases")
 
     def ratio(a, b, digits=">12.2f"):
         return format(measure.ratio(found[a], found[b]), digits) if a in found and b in found else f"{'-':>12}"

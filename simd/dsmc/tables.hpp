@@ -3,6 +3,7 @@
 #pragma once
 
 #include "laws/cell_number.hpp"
+#include "laws/collision.hpp"
 #include "laws/restitution_models.hpp"
 #include "simd/tables.hpp"
 
@@ -78,15 +79,6 @@ using GasSort = std::int32_t (*)(const SortView&);
 
 // ---- collisions
 
-enum class GasScheme {
-    no_time_counter,
-    direction_first,
-    nanbu_babovsky,
-    majorant_frequency,
-    bernoulli,
-    maxwell
-};
-
 // What became of a candidate, for those who compare runs.
 struct GasDecision {
     std::uint32_t cell, candidate;
@@ -104,7 +96,7 @@ struct GasCollisionView {
     const std::int32_t* start;
     std::int32_t first_cell, cells;
     double* list[gas_lists]; // room for cells + 16 numbers each
-    GasScheme scheme;
+    laws::CollisionScheme scheme;
     // F S dt/(2 V): mean number of candidates = rate N (N - 1) g_max; S = pi s^2 or 2 s, the largest one.
     double rate;
     double maxwell; // candidates per particle, all of which collide; 0: as `rate` says

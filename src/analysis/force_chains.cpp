@@ -1,5 +1,7 @@
 #include "analysis/force_chains.hpp"
 
+#include "analysis/sets.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -27,24 +29,6 @@ std::vector<std::vector<Bond>> loaded_bonds(const Frame& frame, double threshold
     }
     return bonds;
 }
-
-// Disjoint sets; the root of a set is its smallest member.
-class Sets {
-public:
-    explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-    std::size_t root(std::size_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::size_t a, std::size_t b) {
-        a = root(a);
-        b = root(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::size_t> parent_;
-};
 
 class ForceChainSeries : public Series {
 public:

@@ -1,5 +1,6 @@
 #include "analysis/gas_structure.hpp"
 
+#include "analysis/sets.hpp"
 #include "core/bytes.hpp"
 #include "core/error.hpp"
 
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <numeric>
 
 namespace sandlane::analysis {
 
@@ -30,24 +30,6 @@ std::size_t cell_at(double place, double lower, double length, std::size_t cells
     const double at = std::floor((place - lower) / length * static_cast<double>(cells));
     return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(cells - 1)));
 }
-
-// Sets of particles that are joined two by two.
-class Sets {
-public:
-    explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-    std::size_t root(std::size_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::size_t i, std::size_t j) {
-        i = root(i);
-        j = root(j);
-        parent_[std::max(i, j)] = std::min(i, j);
-    }
-
-private:
-    std::vector<std::size_t> parent_;
-};
 
 } // namespace
 

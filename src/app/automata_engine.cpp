@@ -281,8 +281,8 @@ public:
                            json_text(scene::engine_choices()[static_cast<std::size_t>(scene_.method)]),
                            steps_of(scene_), memory_bytes(), simd::isa_name(means_.isa), means_.threads);
     }
-    [[nodiscard]] std::unique_ptr<Engine> start() const override { return start(means_.isa); }
-    [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) const override {
+    [[nodiscard]] std::unique_ptr<Engine> start() override { return start(means_.isa); }
+    [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) override {
         const automata::Means means{isa, means_.threads};
         std::unique_ptr<Model> model = automata::make_model(scene_, means);
         facts_ = model->facts();

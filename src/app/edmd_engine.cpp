@@ -336,8 +336,8 @@ public:
             json_number(plan_->events), plan_->simple ? "simple" : "improved", plan_->warnings.size(),
             memory_bytes(), simd::isa_name(plan_->isa), plan_->threads);
     }
-    [[nodiscard]] std::unique_ptr<Engine> start() const override { return start(plan_->isa); }
-    [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) const override {
+    [[nodiscard]] std::unique_ptr<Engine> start() override { return start(plan_->isa); }
+    [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) override {
         return std::make_unique<EdmdEngine>(scene_, plan_, isa);
     }
 

@@ -166,8 +166,8 @@ public:
     [[nodiscard]] virtual std::string description() const = 0; // the text of `sandlane check`
     [[nodiscard]] virtual std::string json() const = 0;        // the object of `sandlane check --json`
     // At the start of the scene, by the instruction set of the plan or by another one.
-    [[nodiscard]] virtual std::unique_ptr<Engine> start() const = 0;
-    [[nodiscard]] virtual std::unique_ptr<Engine> start(simd::Isa isa) const = 0;
+    [[nodiscard]] virtual std::unique_ptr<Engine> start() = 0;
+    [[nodiscard]] virtual std::unique_ptr<Engine> start(simd::Isa isa) = 0;
 };
 
 // By the method of the scene. Throws Error(invalid_input) for what the engine cannot do.

@@ -149,8 +149,8 @@ public:
             json_number(derived_.restitution_min), json_number(derived_.restitution_max), memory_bytes(),
             simd::isa_name(plan_.isa), plan_.threads);
     }
-    [[nodiscard]] std::unique_ptr<Engine> start() const override { return start(plan_.isa); }
-    [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) const override {
+    [[nodiscard]] std::unique_ptr<Engine> start() override { return start(plan_.isa); }
+    [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) override {
         md::Plan plan = plan_;
         plan.isa = isa;
         // They may be many: the first start takes them, another one makes the same again.
@@ -162,7 +162,7 @@ public:
 
 private:
     scene::Scene scene_;
-    mutable std::vector<scene::GrainState> grains_;
+    std::vector<scene::GrainState> grains_;
     md::Needs needs_;
     md::Derived derived_;
     md::Plan plan_;

@@ -60,8 +60,7 @@ std::unique_ptr<Model> make_lattice_gas(const scene::Scene& scene, const Means& 
     if (std::isnan(occupied[0]))
         fail(Exit::invalid_input,
              "lattice_gas.velocity: {} at a density of {} is more than the particles of one site can have; "
-             "take "
-             "a lower velocity, or a density nearer to 0.5",
+             "take a lower velocity, or a density nearer to 0.5",
              std::hypot(s.velocity.x, s.velocity.y), s.density);
     fill(lattice, rules, occupied);
     return std::make_unique<GasFlow>(std::move(lattice), rules, means, s.active_tiles);

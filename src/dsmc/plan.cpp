@@ -64,7 +64,7 @@ Setup setup_of(const scene::Scene& scene) {
     for (const scene::GasPair& pair : scene.gas_pairs)
         s.pairs.push_back({static_cast<std::size_t>(pair.between[0]),
                            static_cast<std::size_t>(pair.between[1]), pair.restitution, pair.dissipation});
-    s.scheme = static_cast<simd::GasScheme>(scene.dsmc.scheme);
+    s.scheme = scene.dsmc.scheme;
     s.enskog = scene.dsmc.enskog;
     s.dt = scene.dsmc.dt;
     s.adaptive = scene.dsmc.adaptive;
@@ -192,9 +192,9 @@ Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& thr
         plan.threads = std::max(1, tiling.tiles());
         plan.chosen.push_back("fewer threads than CPUs: there are not more tiles of cells");
     }
-    if (s.scheme == simd::GasScheme::maxwell)
+    if (s.scheme == laws::CollisionScheme::maxwell)
         plan.chosen.push_back("collisions at the rate of the start, whatever the relative speed");
-    else if (s.scheme != simd::GasScheme::no_time_counter)
+    else if (s.scheme != laws::CollisionScheme::no_time_counter)
         plan.chosen.push_back("collisions without vector kernels: this scheme is an oracle");
     plan.warnings = warnings(s, n, scene.gas.temperature);
     for (const auto& axis : s.walls.side)

@@ -38,7 +38,7 @@ struct Setup {
     double tangential = 1, friction = 0; // rough: eps_t, mu
     double inertia = 0.4;                // rough: J = inertia m R^2
     laws::Restitution restitution;
-    simd::GasScheme scheme = simd::GasScheme::no_time_counter;
+    laws::CollisionScheme scheme = laws::CollisionScheme::no_time_counter;
     bool enskog = false;
     double dt = 0;         // s
     bool adaptive = false; // dt grows as 1/sqrt(T)

@@ -358,13 +358,13 @@ void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) {
                              static_cast<std::vector<simd::GasDecision>*>(to)->push_back(decision);
                          },
                          &heard_[static_cast<std::size_t>(t)]};
-    const bool maxwell = setup_.scheme == simd::GasScheme::maxwell;
+    const bool maxwell = setup_.scheme == laws::CollisionScheme::maxwell;
     if (maxwell) {
         const double start =
             setup_.mass * first_square_sum_ / (setup_.dimension * static_cast<double>(size_));
         view.maxwell = 0.5 * dt_ * scales(setup_, size_, start).collision_rate;
     }
-    const bool vector = maxwell || setup_.scheme == simd::GasScheme::no_time_counter;
+    const bool vector = maxwell || setup_.scheme == laws::CollisionScheme::no_time_counter;
     const simd::DsmcKernels& kernels = vector ? *kernels_ : simd::dsmc_kernels(simd::Isa::scalar);
     result.collisions = kernels.collide[setup_.dimension - 2][setup_.rough ? 1 : 0][mixed ? 1 : 0](view);
 }

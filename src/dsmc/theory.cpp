@@ -26,7 +26,7 @@ analysis::MixtureGas mixture_gas(const Setup& setup, std::size_t particles) {
 }
 
 bool is_homogeneous(const Setup& setup) {
-    if (setup.rough || setup.shear != 0 || setup.scheme == simd::GasScheme::maxwell) return false;
+    if (setup.rough || setup.shear != 0 || setup.scheme == laws::CollisionScheme::maxwell) return false;
     if (!setup.others.empty() && setup.restitution.model != laws::Restitution::Model::constant) return false;
     for (int d = 0; d < setup.dimension; ++d)
         if (!setup.walls.periodic[d] || setup.gravity[d] != 0) return false;

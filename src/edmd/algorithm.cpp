@@ -89,22 +89,19 @@ void Algorithm::check_course(const Drift& drift) {
     const auto events = static_cast<std::int64_t>(log_.count());
     if (guard_.sees(time(), events, size()))
         fail(Exit::unstable,
-             "inelastic collapse at t = {:.9g} s: after {} events, a thousand more for each particle take no "
-             "time. "
-             "Give edmd.contact_time or edmd.elastic_speed, e.g. a thousandth of the time between two "
-             "collisions, or of the thermal speed",
+             "inelastic collapse at t = {:.9g} s: after {} events, a thousand more for each particle take "
+             "no time. Give edmd.contact_time or edmd.elastic_speed, e.g. a thousandth of the time between "
+             "two collisions, or of the thermal speed",
              time(), events);
     // Without a collision nothing has cooled: particles may fly together from the start.
     if (tally_.collisions > 0 && drift.is_too_fast())
-        fail(
-            Exit::unstable,
-            "at t = {:.9g} s, after {} events, the particles fly together {:.0e} times faster than relative "
-            "to "
-            "each other, too fast to tell these velocities from rounding. A gas that cools freely gets there "
-            "by the rounding of its momentum: let it end earlier (edmd.duration, edmd.events), or heat it. "
-            "In "
-            "a field of gravity along a periodic direction all fall together: take it out of domain.periodic",
-            time(), events, Drift::most);
+        fail(Exit::unstable,
+             "at t = {:.9g} s, after {} events, the particles fly together {:.0e} times faster than relative "
+             "to each other, too fast to tell these velocities from rounding. A gas that cools freely gets "
+             "there by the rounding of its momentum: let it end earlier (edmd.duration, edmd.events), or "
+             "heat it. In a field of gravity along a periodic direction all fall together: take it out of "
+             "domain.periodic",
+             time(), events, Drift::most);
     const double radius = setup_.smallest_radius();
     if (tally_.smallest_gap < -1e-9 * radius)
         fail(Exit::unstable, "particles overlap by {:.3g} m when they meet, at t = {:.9g} s",

@@ -69,8 +69,7 @@ void grow(const Setup& setup, std::vector<Particle>& particles, double rate, int
             fail(Exit::invalid_input,
                  "edmd.start = \"growth\": after {} collisions of each the particles have jammed at packing "
                  "fraction {:.4g} of {:.4g}. Take fewer or smaller ones, a slower edmd.growth_rate than {}, "
-                 "or "
-                 "start = \"lattice\"",
+                 "or start = \"lattice\"",
                  40 * round, end * std::pow(s.scale, dimension), end, rate);
         heat(s, particles, 1, 0); // growth heats
         const std::unique_ptr<Algorithm> run = algorithm_for(s, particles, threads);

@@ -183,15 +183,21 @@ void emit(const Setup& setup, const Side& side, Body& body, const WallHit& hit, 
     if (setup.rough) body.spin = e.spin;
 }
 
-// From a wall at rest, with the normal e.
-void reflect(const Setup& setup, const Side& side, Body& body, const Vector<double>& e, bool elastic) {
+// From a wall with the normal e that moves along it with wall_speed, and beside it with side.velocity.
+void reflect(const Setup& setup, const Side& side, Body& body, const Vector<double>& e, double wall_speed,
+             bool elastic) {
     const Class& c = setup.classes[body.kind];
     const double eps_n = elastic ? 1 : side.eps_n;
     if (!setup.rough || side.eps_t == 1 || elastic) {
-        body.velocity = body.velocity + laws::smooth_impulse(min(dot(body.velocity, e), 0.0), e, eps_n);
+        // As a sum of parts, so that no rounding leaves it slower than the wall.
+        const double normal = dot(body.velocity, e);
+        const double after = max(normal, wall_speed - eps_n * min(normal - wall_speed, 0.0));
+        body.velocity = (body.velocity - normal * e) + after * e;
         return;
     }
-    const Vector<double> g = body.velocity - cross(c.radius * body.spin, e);
+    const Vector<double> slide{side.velocity[0], side.velocity[1], side.velocity[2]};
+    const Vector<double> wall = slide + (wall_speed - dot(slide, e)) * e;
+    const Vector<double> g = body.velocity - wall - cross(c.radius * body.spin, e);
     const Vector<double> push = laws::impulse(g, e, eps_n, side.eps_t, c.inertia / (1 + c.inertia));
     body.velocity = body.velocity + push;
     body.spin = body.spin - (1 / (c.inertia * c.radius)) * cross(e, push);
@@ -208,13 +214,13 @@ WallEffect meet_curved(const Setup& setup, Body& body, const WallHit& hit) {
     effect.heated = side.kind == Side::Kind::heated;
     if (!effect.heated) {
         effect.elastic = hit.soon || -dot(body.velocity, e) < setup.elastic_speed;
-        reflect(setup, side, body, e, effect.elastic);
+        reflect(setup, side, body, e, 0, effect.elastic);
         effect.energy = kinetic(setup, body) - before;
         return effect;
     }
     const Emission out = emission(setup, side, setup.classes[body.kind], hit);
     if (!out.accommodates) {
-        reflect(setup, side, body, e, true);
+        reflect(setup, side, body, e, 0, true);
         return effect;
     }
     // Two directions along the wall: of the axis that is farthest from e, in the plane of z.
@@ -233,25 +239,6 @@ WallEffect meet_curved(const Setup& setup, Body& body, const WallHit& hit) {
     return effect;
 }
 
-void reflect(const Setup& setup, const Side& side, Body& body, const WallHit& hit, double wall_speed,
-             bool elastic) {
-    const Class& c = setup.classes[body.kind];
-    const double sign = hit.wall % 2 == 0 ? 1 : -1;
-    double& normal = component(body.velocity, hit.wall / 2);
-    const double eps_n = elastic ? 1 : side.eps_n;
-    if (!setup.rough || side.eps_t == 1 || elastic) {
-        normal = sign * (wall_speed - eps_n * min(sign * normal - wall_speed, 0.0));
-        return;
-    }
-    Vector<double> e{0, 0, 0}, wall{side.velocity[0], side.velocity[1], side.velocity[2]};
-    component(e, hit.wall / 2) = sign;
-    component(wall, hit.wall / 2) = sign * wall_speed;
-    const Vector<double> g = body.velocity - wall - cross(c.radius * body.spin, e);
-    const Vector<double> push = laws::impulse(g, e, eps_n, side.eps_t, c.inertia / (1 + c.inertia));
-    body.velocity = body.velocity + push;
-    body.spin = body.spin - (1 / (c.inertia * c.radius)) * cross(e, push);
-}
-
 } // namespace
 
 WallEffect meet_wall(const Setup& setup, Body& body, const WallHit& hit) {
@@ -265,10 +252,10 @@ WallEffect meet_wall(const Setup& setup, Body& body, const WallHit& hit) {
     if (effect.heated) {
         emit(setup, side, body, hit, speed);
     } else {
-        const double sign = hit.wall % 2 == 0 ? 1 : -1;
-        const double toward = speed - sign * component(body.velocity, hit.wall / 2);
-        effect.elastic = hit.soon || toward < setup.elastic_speed;
-        reflect(setup, side, body, hit, speed, effect.elastic);
+        Vector<double> e{0, 0, 0};
+        component(e, hit.wall / 2) = hit.wall % 2 == 0 ? 1 : -1;
+        effect.elastic = hit.soon || speed - dot(body.velocity, e) < setup.elastic_speed;
+        reflect(setup, side, body, e, speed, effect.elastic);
     }
     effect.energy = kinetic(setup, body) - before;
     return effect;

@@ -115,8 +115,7 @@ void check_curved(const Plan& plan) {
     if (!(volume > 0) || packing_fraction(s, plan.amounts) > most)
         fail(Exit::invalid_input,
              "gas: curved walls leave {:.4g} m^{} for {} particles; the packing fraction may be up to {}. "
-             "Take "
-             "fewer or smaller ones, or a larger container",
+             "Take fewer or smaller ones, or a larger container",
              volume, s.dimension, plan.particles(), most);
 }
 
@@ -233,9 +232,9 @@ Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& thr
     const bool room = s.has_room_for_cells();
     using scene::EventAlgorithm;
     if (scene.edmd.algorithm == EventAlgorithm::improved && !room)
-        fail(Exit::invalid_input, "edmd.algorithm = \"improved\": the domain must have room for three cells "
-                                  "of a diameter each where it "
-                                  "is periodic; use \"auto\" or \"simple\"");
+        fail(Exit::invalid_input, "edmd.algorithm = \"improved\": the domain must have room for three "
+                                  "cells of a diameter each where it is periodic; use \"auto\" or "
+                                  "\"simple\"");
     plan.simple = scene.edmd.algorithm == EventAlgorithm::simple || !room;
     if (plan.simple && !room)
         plan.chosen.push_back(

@@ -186,8 +186,7 @@ void place_on_lattice(const Setup& setup, std::vector<Particle>& particles) {
     if (l.nearest < 2 * radius * (1 + 1e-12))
         fail(Exit::invalid_input,
              "gas: {} particles of diameter {} m do not fit into the domain, not even on a lattice (sites "
-             "{:.6g} "
-             "m apart). Take fewer or smaller ones, or a larger domain",
+             "{:.6g} m apart). Take fewer or smaller ones, or a larger domain",
              count, 2 * radius, l.nearest);
     const bool space = setup.dimension == 3;
     const std::int64_t per_cell = space ? 4 : 2;
@@ -255,8 +254,7 @@ void place(const Setup& setup, std::vector<Particle>& particles, const Start& st
     if (random)
         fail(Exit::invalid_input,
              "gas: {} particles, packing fraction {:.4g}, find no room at random{}. Take fewer or smaller "
-             "ones, or "
-             "a larger domain{}",
+             "ones, or a larger domain{}",
              particles.size(), packing, setup.curved.empty() ? "" : " between curved walls",
              setup.curved.empty() ? "; or edmd.start = \"growth\"" : "");
     place_on_lattice(setup, particles);

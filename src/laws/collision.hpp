@@ -7,6 +7,17 @@
 
 namespace sandlane::laws {
 
+// How direct simulation Monte Carlo selects the pairs of a cell that collide (specification of DSMC, section
+// 5).
+enum class CollisionScheme {
+    no_time_counter,
+    direction_first,
+    nanbu_babovsky,
+    majorant_frequency,
+    bernoulli,
+    maxwell
+};
+
 // The impulse that i gets, and j with the other sign, divided by m_eff [m/s]:
 // P/m_eff = -(1 + eps_n) g_n e - (1 - eps_t) (m_t/m_eff) g_t. mass_ratio = m_t/m_eff, q/(1 + q) for equal
 // J = q m R^2.

@@ -145,8 +145,7 @@ void Simulation::handle_outside() {
         if (scene_.domain.outside == scene::Outside::error)
             fail(Exit::unstable,
                  "step {}, t = {:.6g} s: grain {} left the domain at {}. Enlarge the domain, add walls, or "
-                 "set "
-                 "domain.outside = \"remove\".",
+                 "set domain.outside = \"remove\".",
                  step_, time(), state_.id[i], place);
         take_out(i);
     }

@@ -78,17 +78,14 @@ void choose_neighbours(const Scene& scene, const Needs& needs, Plan& plan) {
     if (asks && needs.radius_max > 0 && plan.columns == 0)
         fail(Exit::invalid_input,
              "md.neighbours = \"lattice\": the domain of {:.4g} x {:.4g} m would have more than {:.3g} "
-             "sites, about {:.3g} m "
-             "wide for the smallest radius. Shrink the domain, or use md.neighbours = \"auto\" or "
-             "\"link-cells\".",
+             "sites, about {:.3g} m wide for the smallest radius. Shrink the domain, or use md.neighbours = "
+             "\"auto\" or \"link-cells\".",
              plan.upper.x - plan.lower.x, plan.upper.y - plan.lower.y, most_sites, needs.radius_min);
     if (asks && needs.radius_max > 0 && !fits)
         fail(Exit::invalid_input,
              "md.neighbours = \"lattice\": radius ratio {:.4g} and domain do not suit the lattice; with "
-             "delta = {} the "
-             "9x9 mask serves ratios up to {:.4g} and a periodic side needs 2 reach + 1 sites (here {} x {} "
-             "sites, "
-             "reach {}). Use md.neighbours = \"auto\" or \"link-cells\".",
+             "delta = {} the 9x9 mask serves ratios up to {:.4g} and a periodic side needs 2 reach + 1 "
+             "sites (here {} x {} sites, reach {}). Use md.neighbours = \"auto\" or \"link-cells\".",
              ratio, scene.md.delta, lattice_ratio_bound(4, scene.md.delta), plan.columns, plan.rows,
              plan.reach);
     if (plan.memory > 0) {
@@ -142,8 +139,7 @@ void check_time_step(const Scene& scene, const Derived& derived, double dt) {
     if (!(dt > derived.critical_dt)) return;
     fail(Exit::invalid_input,
          "md.dt = {:.4g} s is above the critical time step {:.4g} s of the stiffest contact with {} "
-         "(allowed: 0 to that; "
-         "recommended: {:.3g} s). Lower md.dt, leave it out, or soften the material.",
+         "(allowed: 0 to that; recommended: {:.3g} s). Lower md.dt, leave it out, or soften the material.",
          dt, derived.critical_dt, integrator_name(scene.md.integrator), derived.recommended_dt);
 }
 
@@ -194,8 +190,7 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     if (scene.md.max_speed * plan.dt > 0.1 * needs.radius_min && needs.radius_min > 0)
         fail(Exit::invalid_input,
              "md.dt = {:.4g} s: a grain of md.max_speed = {} m/s moves {:.3g} m per step, more than 0.1 "
-             "R_min = {:.3g} m; "
-             "it could pass through a wall. Lower md.dt below {:.3g} s.",
+             "R_min = {:.3g} m; it could pass through a wall. Lower md.dt below {:.3g} s.",
              plan.dt, scene.md.max_speed, scene.md.max_speed * plan.dt, 0.1 * needs.radius_min,
              0.1 * needs.radius_min / scene.md.max_speed);
     if (scene.md.adaptive_dt) { // dt times 1/4, 1/3, 1/2, 2/3, 1, 4/3, 2 and 4

@@ -352,8 +352,7 @@ void Simulation::check_walls() const {
     if (worst.largest_ratio < 0.9) return;
     fail(Exit::unstable,
          "step {}, t = {:.6g} s: grain {} overlaps wall \"{}\" by {:.3g} of its radius (allowed: 0.9). "
-         "Stiffen "
-         "the material, lower md.dt, or check the wall's motion.",
+         "Stiffen the material, lower md.dt, or check the wall's motion.",
          step_, time(), state_.id[static_cast<std::size_t>(worst.grain)],
          scene_.walls[static_cast<std::size_t>(worst.wall)].name, worst.largest_ratio);
 }

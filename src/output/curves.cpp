@@ -1,12 +1,11 @@
 #include "output/curves.hpp"
 
 #include "output/escape.hpp"
+#include "output/plot_axis.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <iterator>
 
 namespace sandlane::output {
 
@@ -15,46 +14,10 @@ namespace {
 constexpr double width = 460, height = 300, left = 62, right = 12, top = 12, bottom = 42;
 constexpr const char* colours[] = {"#1f77b4", "#d1495b", "#2c8a4b", "#8051a8", "#b8860b"};
 
-// One axis: what is shown of it, and where its marks are.
-class Axis {
-public:
-    Axis(bool log, double from, double to) : log_(log), from_(from), to_(to) {}
-
-    [[nodiscard]] double measure(double v) const { return log_ ? std::log10(v) : v; }
-    [[nodiscard]] bool shows(double v) const { return std::isfinite(v) && (!log_ || v > 0); }
-    void include(double v) {
-        if (!shows(v)) return;
-        low_ = std::min(low_, measure(v));
-        high_ = std::max(high_, measure(v));
-    }
-    [[nodiscard]] bool empty() const { return !(low_ <= high_); }
-    void finish() {
-        if (high_ == low_) low_ -= 0.5, high_ += 0.5;
-        double step = std::pow(10.0, std::floor(std::log10((high_ - low_) / 4)));
-        while ((high_ - low_) / step > 6) step *= (high_ - low_) / step > 12 ? 5 : 2;
-        if (log_) step = std::max(1.0, std::ceil(step));
-        for (double v = std::ceil(low_ / step - 1e-9) * step; v <= high_ + 1e-9 * step; v += step)
-            marks_.push_back(std::abs(v) < 1e-9 * step ? 0 : v);
-    }
-    [[nodiscard]] double place(double measured) const {
-        return from_ + (measured - low_) / (high_ - low_) * (to_ - from_);
-    }
-    [[nodiscard]] const std::vector<double>& marks() const { return marks_; }
-    [[nodiscard]] std::string text(double mark) const {
-        return log_ ? fmt::format("1e{:.0f}", mark) : fmt::format("{:.4g}", mark);
-    }
-
-private:
-    bool log_;
-    double from_, to_;
-    double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
-    std::vector<double> marks_;
-};
-
 } // namespace
 
 std::string svg_of(const CurvePlot& plot) {
-    Axis x(plot.log_x, left, width - right), y(plot.log_y, height - bottom, top);
+    PlotAxis x(plot.log_x), y(plot.log_y);
     for (const Curve& c : plot.curves)
         for (std::size_t n = 0; n < c.x.size(); ++n)
             if (x.shows(c.x[n]) && y.shows(c.y[n])) {
@@ -64,17 +27,19 @@ std::string svg_of(const CurvePlot& plot) {
     if (x.empty() || y.empty()) return {};
     x.finish();
     y.finish();
+    const auto across = [](double share) { return left + share * (width - right - left); };
+    const auto up = [](double share) { return height - bottom - share * (height - bottom - top); };
     std::string svg =
         fmt::format(R"(<svg viewBox="0 0 {} {}" width="{}" font-size="11" fill="currentColor" role="img">)",
                     width, height, width);
-    for (const double v : x.marks())
+    for (const PlotAxis::Tick& t : x.ticks())
         svg += fmt::format(R"(<path d="M{0:.1f} {1}V{2}" stroke="currentColor" opacity="0.15"/>)"
                            R"(<text x="{0:.1f}" y="{3}" text-anchor="middle">{4}</text>)",
-                           x.place(v), top, height - bottom, height - bottom + 15, x.text(v));
-    for (const double v : y.marks())
+                           across(t.share), top, height - bottom, height - bottom + 15, t.label);
+    for (const PlotAxis::Tick& t : y.ticks())
         svg += fmt::format(R"(<path d="M{0} {1:.1f}H{2}" stroke="currentColor" opacity="0.15"/>)"
                            R"(<text x="{3}" y="{4:.1f}" text-anchor="end">{5}</text>)",
-                           left, y.place(v), width - right, left - 6, y.place(v) + 4, y.text(v));
+                           left, up(t.share), width - right, left - 6, up(t.share) + 4, t.label);
     svg += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)", (left + width) / 2,
                        height - 8, html_text(plot.x_label));
     svg += fmt::format(
@@ -86,7 +51,7 @@ std::string svg_of(const CurvePlot& plot) {
         std::string line;
         for (std::size_t n = 0; n < c.x.size(); ++n) {
             if (!x.shows(c.x[n]) || !y.shows(c.y[n])) continue;
-            const double px = x.place(x.measure(c.x[n])), py = y.place(y.measure(c.y[n]));
+            const double px = across(x.share(c.x[n])), py = up(y.share(c.y[n]));
             if (c.points)
                 svg += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="2.2" fill="{}"/>)", px, py, colour);
             else

@@ -2,58 +2,15 @@
 
 #include "output/canvas.hpp"
 #include "output/picture_frame.hpp"
+#include "output/plot_axis.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include <vector>
 
 namespace sandlane::output {
 
 namespace {
-
-// One axis: values to a share of its length, and its ticks.
-struct PlotAxis {
-    double low, high;
-    bool logarithmic;
-
-    PlotAxis(std::vector<double> values, bool logs) : logarithmic(logs) {
-        const auto [least, most] = std::minmax_element(values.begin(), values.end());
-        low = place(*least);
-        high = place(*most);
-        if (logs) {
-            low = std::floor(low);
-            high = std::ceil(high);
-        }
-        // Ticks need room between numbers: what differs by rounding counts as equal.
-        const double size = std::max(std::abs(low), std::abs(high));
-        if (!(high - low > 1e-9 * size)) high = low + std::max(1.0, 1e-3 * size);
-    }
-    [[nodiscard]] double place(double value) const { return logarithmic ? std::log10(value) : value; }
-    [[nodiscard]] double share(double value) const { return (place(value) - low) / (high - low); }
-
-    struct Tick {
-        double share;
-        std::string label;
-    };
-    [[nodiscard]] std::vector<Tick> ticks() const {
-        std::vector<Tick> found;
-        if (logarithmic) {
-            const double step = std::max(1.0, std::ceil((high - low) / 8));
-            for (double decade = low; decade <= high; decade += step)
-                found.push_back({(decade - low) / (high - low), fmt::format("1e{:.0f}", decade)});
-            return found;
-        }
-        const double power = std::pow(10, std::floor(std::log10((high - low) / 5)));
-        double step = power;
-        for (const double factor : {2.0, 5.0, 10.0})
-            if ((high - low) / step > 7) step = factor * power;
-        for (double at = std::ceil(low / step) * step; at <= high + 1e-9 * step; at += step)
-            found.push_back(
-                {(at - low) / (high - low), fmt::format("{:.4g}", std::abs(at) < 1e-9 * step ? 0 : at)});
-        return found;
-    }
-};
 
 std::string title(const analysis::LogColumn& column) {
     return column.unit == "1" || column.unit.empty() ? column.name
@@ -64,14 +21,18 @@ std::string title(const analysis::LogColumn& column) {
 
 std::string draw_plot(const analysis::Table& table, int width) {
     std::vector<double> xs, ys;
+    PlotAxis across(table.logarithmic), up(table.logarithmic);
     for (const std::vector<double>& row : table.rows) {
         const double x = row[static_cast<std::size_t>(table.x)], y = row[static_cast<std::size_t>(table.y)];
-        if (!std::isfinite(x) || !std::isfinite(y) || (table.logarithmic && !(x > 0 && y > 0))) continue;
+        if (!across.shows(x) || !up.shows(y)) continue;
+        across.include(x);
+        up.include(y);
         xs.push_back(x);
         ys.push_back(y);
     }
     if (xs.size() < 2) return {};
-    const PlotAxis across(xs, table.logarithmic), up(ys, table.logarithmic);
+    across.finish();
+    up.finish();
     const double unit = width / 800.0;
     const int height = static_cast<int>(0.7 * width);
     const double left = 90 * unit, right = width - 20 * unit, top = 40 * unit, bottom = height - 60 * unit;

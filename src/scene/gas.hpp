@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/vec.hpp"
+#include "laws/collision.hpp"
 
 #include <array>
 #include <cstdint>
@@ -60,14 +61,7 @@ struct CurvedWall {
     double temperature = 0, accommodation = 1; // heated
 };
 
-enum class CollisionScheme {
-    no_time_counter,
-    direction_first,
-    nanbu_babovsky,
-    majorant_frequency,
-    bernoulli,
-    maxwell
-};
+using laws::CollisionScheme;
 
 struct Dsmc {
     std::array<std::int64_t, 3> cells{}; // 0: chosen

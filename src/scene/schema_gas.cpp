@@ -125,9 +125,8 @@ const Table<Dsmc>& dsmc_table() {
                     {"no-time-counter", "direction-first", "nanbu-babovsky", "majorant-frequency",
                      "bernoulli", "maxwell"},
                     "how pairs are chosen. Those after the first are oracles without vector kernels; but "
-                    "\"maxwell\" "
-                    "lets all pairs collide at the rate of the start, whatever their speed: a gas with exact "
-                    "solutions")
+                    "\"maxwell\" lets all pairs collide at the rate of the start, whatever their speed: a "
+                    "gas with exact solutions")
             .flag("enskog", &Dsmc::enskog,
                   "more collisions by the pair correlation at contact of the cell's density")
             .number("dt", &Dsmc::dt, Unit::time, not_negative(),
@@ -183,9 +182,8 @@ const Table<Edmd>& edmd_table() {
     static const Table<Edmd> table =
         Table<Edmd>(
             "Event-driven dynamics. Steps are events: collisions and hits of walls. The start is random "
-            "where "
-            "there is room for that, else a lattice. Pictures and trajectories are written only where their "
-            "intervals are given.")
+            "where there is room for that, else a lattice. Pictures and trajectories are written only where "
+            "their intervals are given.")
             .choice("algorithm", &Edmd::algorithm, {"auto", "improved", "simple"},
                     "cells and a queue, or every pair after every event: the same events. \"auto\" takes the "
                     "second for boxes of fewer than three cells")

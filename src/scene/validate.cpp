@@ -1,8 +1,8 @@
 // What one key of a scene of grains cannot know alone: names that refer to each other, shapes that need
 // certain keys, coefficients that the chosen laws read.
-#include "core/error.hpp"
 #include "scene/schema.hpp"
 #include "scene/space.hpp"
+#include "scene/validator.hpp"
 #include "scene/wall_geometry.hpp"
 
 #include <fmt/format.h>
@@ -20,16 +20,9 @@ bool is_positive(double x) {
     return x > 0;
 }
 
-struct Validator {
-    const Scene& scene;
-    const std::string& file;
+struct GrainValidator : Validator {
     const std::int64_t dimension = scene.domain.dimension;
     const bool spatial = dimension == 3;
-
-    template <class... Args>
-    [[noreturn]] void reject(fmt::format_string<Args...> format, Args&&... args) const {
-        fail(Exit::invalid_input, "{}: {}", file, fmt::format(format, std::forward<Args>(args)...));
-    }
 
     [[nodiscard]] std::string names() const {
         std::string all;
@@ -54,26 +47,9 @@ struct Validator {
                                    [&](const AxisOfSpace& axis) { return condition(v.*axis.component); });
     }
 
-    void check_domain() const {
-        const Vec size = scene.domain.upper - scene.domain.lower;
-        if (!all_components(size, [](double length) { return length > 0 && std::isfinite(length); }))
-            reject("domain: upper = [{}] must lie above lower = [{}] in {} directions, at a finite distance",
-                   text(scene.domain.upper), text(scene.domain.lower), spatial ? "all" : "both");
-    }
-
-    void check_shear() const {
-        const Domain& d = scene.domain;
-        if (d.shear_rate == 0) return;
-        if (!std::isfinite(d.shear_rate)) reject("domain.shear_rate: {} is no number", d.shear_rate);
-        if (!d.periodic[0] || !d.periodic[1])
-            reject(
-                "domain.shear_rate: {} needs periodic = [\"x\", \"y\"]: the flow is along x and its images "
-                "stand beyond the y sides",
-                d.shear_rate);
-        if (d.gravity.x != 0 || d.gravity.y != 0)
-            reject("domain.shear_rate: {} and gravity [{}]: a sheared cell falls along x and y; leave "
-                   "gravity out",
-                   d.shear_rate, text(d.gravity));
+    void check_sheared_cell() const {
+        check_shear();
+        if (scene.domain.shear_rate == 0) return;
         const NeighbourMethod m = scene.md.neighbours;
         if (m != NeighbourMethod::automatic && m != NeighbourMethod::verlet)
             reject("md.neighbours: \"{}\" cannot follow domain.shear_rate; use \"auto\" or \"verlet\"",
@@ -387,10 +363,10 @@ struct Validator {
 } // namespace
 
 void validate_md(const Scene& scene, const std::string& file) {
-    const Validator v{scene, file};
+    const GrainValidator v{{scene, file}};
     v.check_domain();
     v.check_method();
-    v.check_shear();
+    v.check_sheared_cell();
     v.check_materials();
     v.check_sinks();
     for (std::size_t n = 0; n < scene.grains.size(); ++n)

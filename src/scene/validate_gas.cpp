@@ -1,8 +1,8 @@
 // What one key of a gas cannot know alone.
-#include "core/error.hpp"
 #include "laws/collision.hpp"
 #include "scene/schema.hpp"
 #include "scene/space.hpp"
+#include "scene/validator.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,50 +15,20 @@ namespace {
 
 constexpr const char* side_names[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
 
-struct GasValidator {
-    const Scene& scene;
-    const std::string& file;
-
-    template <class... Args>
-    [[noreturn]] void reject(fmt::format_string<Args...> format, Args&&... args) const {
-        fail(Exit::invalid_input, "{}: {}", file, fmt::format(format, std::forward<Args>(args)...));
-    }
-
-    void check_domain() const {
-        const Domain& d = scene.domain;
-        for (const AxisOfSpace& axis : axes(d.dimension)) {
-            const double length = d.upper.*axis.component - d.lower.*axis.component;
-            if (!(length > 0) || !std::isfinite(length))
-                reject("domain: upper must lie above lower in all directions, at a finite distance; in {} it "
-                       "is {} m",
-                       axis.name, length);
-        }
-    }
-
+struct GasValidator : Validator {
     void refuse_shear() const {
         if (scene.domain.shear_rate != 0)
             reject("domain.shear_rate = {}: is not known to this method; use 0", scene.domain.shear_rate);
     }
-    void check_shear() const {
-        const Domain& d = scene.domain;
-        if (d.shear_rate == 0) return;
-        if (!std::isfinite(d.shear_rate)) reject("domain.shear_rate: {} is no number", d.shear_rate);
-        if (!d.periodic[0] || !d.periodic[1])
-            reject(
-                "domain.shear_rate: {} needs periodic = [\"x\", \"y\"]: the flow is along x and its images "
-                "along y",
-                d.shear_rate);
-        if (d.gravity.x != 0 || d.gravity.y != 0)
-            reject("domain.shear_rate: {} and gravity along x or y: a sheared box would fall; leave out one",
-                   d.shear_rate);
+    void check_sheared_gas() const {
+        check_shear();
+        if (scene.domain.shear_rate == 0) return;
         if (scene.dsmc.scheme == CollisionScheme::maxwell)
             reject("dsmc.scheme: the rate of Maxwell molecules is that of a gas at rest; take another "
-                   "scheme, or "
-                   "leave out domain.shear_rate");
+                   "scheme, or leave out domain.shear_rate");
         if (scene.dsmc.structure_every > 0)
             reject("dsmc.structure_every: waves and clusters across a sheared side are not followed; leave "
-                   "it out, "
-                   "or domain.shear_rate");
+                   "it out, or domain.shear_rate");
         if (scene.dsmc.adaptive)
             reject(
                 "dsmc.adaptive: a sheared gas does not cool down; leave out adaptive or domain.shear_rate");
@@ -166,9 +136,8 @@ struct GasValidator {
         const double most = scene.domain.dimension == 3 ? 0.7405 : 0.9069;
         if (!(after > longest) || particles > most * volume)
             reject("sides[{}].speed = {} m/s: at the end the gas has {:.4g} m of {:.4g} m left; allowed: "
-                   "more than "
-                   "a diameter, and a packing fraction up to {}. Take a slower piston or a shorter "
-                   "edmd.duration",
+                   "more than a diameter, and a packing fraction up to {}. Take a slower piston or a "
+                   "shorter edmd.duration",
                    n, side.speed, after, before, most);
     }
 
@@ -197,8 +166,7 @@ struct GasValidator {
                    wall.radius, longest);
         if (heated != (wall.temperature > 0))
             reject("curved_walls[{}].temperature = {}: a heated wall needs a temperature above 0 J, a "
-                   "reflecting "
-                   "one has none",
+                   "reflecting one has none",
                    n, wall.temperature);
         const auto unused = [&](bool given, const char* key, const char* why) {
             if (given) reject("curved_walls[{}].{}: has no effect here, {}; leave it out", n, key, why);
@@ -287,8 +255,7 @@ struct GasValidator {
                        length, axis.name);
             if (scene.domain.periodic[axis.index] && 2 * longest > length)
                 reject("domain: is {} m long in {}; allowed: at least two diameters, {} m, where it is "
-                       "periodic, "
-                       "so that no particle meets itself or another one twice",
+                       "periodic, so that no particle meets itself or another one twice",
                        length, axis.name, 2 * longest);
             if (e.cell_edge > length)
                 reject("edmd.cell_edge = {} m: allowed: up to the length of the domain, {} m", e.cell_edge,
@@ -315,7 +282,7 @@ struct GasValidator {
 } // namespace
 
 void validate_edmd(const Scene& scene, const std::string& file) {
-    const GasValidator v{scene, file};
+    const GasValidator v{{scene, file}};
     v.check_domain();
     v.refuse_shear();
     v.check_gas(scene.domain.dimension == 3 ? 0.7405 : 0.9069, "the closest packing");
@@ -324,12 +291,12 @@ void validate_edmd(const Scene& scene, const std::string& file) {
 }
 
 void validate_dsmc(const Scene& scene, const std::string& file) {
-    const GasValidator v{scene, file};
+    const GasValidator v{{scene, file}};
     v.check_domain();
     // Beyond freezing there is no fluid that the contact values were made for.
     v.check_gas(laws::freezing_fraction[scene.domain.dimension - 2], "where the fluid freezes");
     for (std::size_t n = 0; n < scene.sides.size(); ++n) v.check_side(n);
-    v.check_shear();
+    v.check_sheared_gas();
     v.check_mixture(16);
     v.check_dsmc();
 }

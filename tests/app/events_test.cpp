@@ -154,7 +154,7 @@ TEST_F(Events, RefuseWhatTheyCannotDo) {
     }
 }
 
-TEST_F(Events, SayThatTheGasCollapses) {
+TEST_F(Events, SayThatTheGasCollapsesSlow) {
     const std::string flat = replaced(hard_scene, "dimension = 3\nupper = [12, 12, 12]", "upper = [18, 18]");
     const std::string open =
         replaced(flat, "[[sides]]\nside = \"-z\"\nkind = \"heated\"\ntemperature = 1\n", "");

@@ -195,7 +195,7 @@ TEST_F(Gas, Refuses) {
         {"cells = [8, 8, 8]", "cells = [10000, 10000, 10000]", {"dsmc.cells", "1e9"}},
         {"particles = 4000", "particles = 0", {"gas.particles", "0"}},
         {"[gas]", "[md]\ndt = 1\n[gas]", {"md", "is not read by method = \"dsmc\""}},
-        {"upper = [8, 8, 8]", "upper = [8, 8, 0]", {"domain", "above lower", "z"}},
+        {"upper = [8, 8, 8]", "upper = [8, 8, 0]", {"domain", "[8, 8, 0] must lie above lower"}},
         {"dt = 0.1", "dt = -0.1", {"dsmc.dt", "-0.1"}},
         {"restitution = 0.9", "friction = 0.9", {"gas.friction", "smooth"}},
         {"periodic = [\"x\", \"y\"]",

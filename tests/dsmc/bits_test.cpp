@@ -77,7 +77,7 @@ std::vector<Case> cases() {
     s.shear = 0.3;
     add("shear", s, 6000);
     s = test::gas(2, 0.9, 5000, 30);
-    s.scheme = simd::GasScheme::maxwell;
+    s.scheme = laws::CollisionScheme::maxwell;
     add("maxwell", s, 5000);
     s = test::gas(3, 0.9, 900, 30); // hardly any particles
     s.cells[1] = 1;

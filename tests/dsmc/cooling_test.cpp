@@ -162,7 +162,7 @@ TEST(Cooling, SchemesAgreeSlow) {
         [[nodiscard]] double variance() const { return (square / 8 - mean() * mean()) / 7; } // of the mean
     };
     const std::uint32_t n = 3000;
-    const auto measure = [&](int d, simd::GasScheme scheme) {
+    const auto measure = [&](int d, laws::CollisionScheme scheme) {
         std::array<Mean, 3> means;
         for (std::uint64_t seed = 0; seed < 8; ++seed) {
             dsmc::Setup s = test::gas(d, 0.7, n, 1);
@@ -180,9 +180,10 @@ TEST(Cooling, SchemesAgreeSlow) {
         return means;
     };
     for (const int d : {2, 3}) {
-        const auto reference = measure(d, simd::GasScheme::no_time_counter);
-        for (const auto scheme : {simd::GasScheme::direction_first, simd::GasScheme::nanbu_babovsky,
-                                  simd::GasScheme::majorant_frequency, simd::GasScheme::bernoulli}) {
+        const auto reference = measure(d, laws::CollisionScheme::no_time_counter);
+        for (const auto scheme :
+             {laws::CollisionScheme::direction_first, laws::CollisionScheme::nanbu_babovsky,
+              laws::CollisionScheme::majorant_frequency, laws::CollisionScheme::bernoulli}) {
             const auto other = measure(d, scheme);
             for (std::size_t q = 0; q < 3; ++q) {
                 const double sigma = std::sqrt(reference[q].variance() + other[q].variance());

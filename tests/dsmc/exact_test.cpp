@@ -57,7 +57,7 @@ TEST(Exact, BobylevKrookWuSlow) {
     for (const int d : {2, 3}) {
         const std::uint32_t n = 200000;
         dsmc::Setup s = test::gas(d, 1, n, d == 3 ? 20 : 90);
-        s.scheme = simd::GasScheme::maxwell;
+        s.scheme = laws::CollisionScheme::maxwell;
         const double nu = test::collision_rate(d, 0.1, 1);
         s.dt = 0.05 / nu;
         dsmc::Simulation gas(s, bobylev(s, n), simd::available_isas().back(), 1);

@@ -34,8 +34,9 @@ dsmc::Simulation simulate(const dsmc::Setup& s, std::uint32_t n) {
 TEST(Mixture, RatesOfPairsSlow) {
     for (const int d : {2, 3})
         for (const bool dense : {false, true})
-            for (const auto scheme : {simd::GasScheme::no_time_counter, simd::GasScheme::direction_first,
-                                      simd::GasScheme::majorant_frequency, simd::GasScheme::bernoulli}) {
+            for (const auto scheme :
+                 {laws::CollisionScheme::no_time_counter, laws::CollisionScheme::direction_first,
+                  laws::CollisionScheme::majorant_frequency, laws::CollisionScheme::bernoulli}) {
                 const std::uint32_t n = 8000;
                 dsmc::Setup s = mixture(d, 1, n, d == 3 ? 6 : 14);
                 s.enskog = dense;

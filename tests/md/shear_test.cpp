@@ -106,7 +106,7 @@ TEST(Shear, SameBitsForKernelsThreadsAndAfterACheckpoint) {
 
 // Momentum of the peculiar velocities stays, and shear makes a stress against it: it heats a cell without
 // loss.
-TEST(Shear, DrivesTheCell) {
+TEST(Shear, DrivesTheCellSlow) {
     Cell c = cell(3, scene::TangentialLaw::none, 1.0);
     c.scene.materials[0].damping = 0;
     md::Simulation sim = test::make_simulation(c.scene, c.grains, simd::available_isas().back());
@@ -153,7 +153,7 @@ TEST(SlowShear, WorkIsBooked) {
 }
 
 // Contacts take and never give; springs hold some of it, and give it back.
-TEST(Shear, DissipationGrows) {
+TEST(Shear, DissipationGrowsSlow) {
     for (const int dimension : {2, 3}) {
         Cell c = cell(dimension, scene::TangentialLaw::cundall_strack, 1.0);
         md::Simulation sim = test::make_simulation(c.scene, c.grains, simd::available_isas().back());

@@ -148,7 +148,7 @@ TEST(SlowDensePacking, OfSpheresIsNoCrystal) {
     EXPECT_NEAR(bond_order(scene, initial_grains(scene)), 0.57452, 1e-4);
 }
 
-TEST(DensePacking, TooDenseIsRefusedWithWhatWasReached) {
+TEST(DensePacking, TooDenseIsRefusedWithWhatWasReachedSlow) {
     const Scene scene = random_scene(3, 200, 0.75, true); // more than any packing of equal spheres
     EXPECT_SAYS(refusal([&] { (void)initial_grains(scene); }), "do not fit without overlap; reached 0.");
 }

@@ -141,7 +141,7 @@ TEST(StandingWalls, InsertedSpheresKeepClearOfThem) {
 
 // Inside the largest cuboid of each vessel, up to its walls, so that the relaxation has to push away from
 // them.
-TEST(StandingWalls, PackedSpheresKeepClearOfThem) {
+TEST(StandingWalls, PackedSpheresKeepClearOfThemSlow) {
     for (const Vessel& vessel : vessels()) {
         Scene s = space_of({vessel.wall});
         Grains& g = random_grains(s, 0.37);

@@ -35,7 +35,7 @@ struct Events {
 } // namespace
 
 // 5 %: what 2000 particles scatter by.
-TEST(ShippedEvents, CoolAsHaffSays) {
+TEST(SlowShippedEvents, CoolAsHaffSays) {
     const Events gas("haff-edmd.toml");
     EXPECT_TRUE(gas.plan.homogeneous);
     for (const double t : {10.0, 100.0, 500.0}) {
@@ -117,7 +117,7 @@ TEST(SlowShippedEvents, DenseSpheresHaveNoOrder) {
 }
 
 // The floor keeps the discs up, densest above it.
-TEST(ShippedEvents, AFloorKeepsDiscsUp) {
+TEST(SlowShippedEvents, AFloorKeepsDiscsUp) {
     const Events gas("vibrated-discs.toml");
     gas.to(100);
     double height = 0;

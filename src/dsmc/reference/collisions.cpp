@@ -27,7 +27,8 @@ double extent(const double* velocity, std::int32_t n) {
 } // namespace
 
 template <int dimension, bool rough> GasCollisions collide_gas(const GasCollisionView& view) {
-    if (view.scheme != GasScheme::no_time_counter && view.scheme != GasScheme::maxwell)
+    if (view.scheme != laws::CollisionScheme::no_time_counter &&
+        view.scheme != laws::CollisionScheme::maxwell)
         return collide_by_scheme(dimension, rough, view);
     GasCollisions result;
     for (std::int32_t c = 0; c < view.cells; ++c) {

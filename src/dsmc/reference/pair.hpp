@@ -103,6 +103,20 @@ inline double frequency(int dimension, const GasCollisionView& view, const Crowd
     return view.mixture->section[pair] * laws::contact_of_pair(dimension, view.mixture->contact[pair] * c.h);
 }
 
+// Impulse per reduced mass of rough particles whose surfaces meet with this velocity; friction limits how
+// much of the tangential restitution there can be.
+inline Vector<double> rough_impulse(const GasCollisionView& view, const Vector<double>& contact,
+                                    const Vector<double>& e, double eps) {
+    double tangential = view.tangential;
+    if (view.friction > 0) {
+        const double along = dot(contact, e);
+        const Vector<double> across = contact - along * e;
+        tangential = laws::sliding_restitution(tangential, view.friction, eps, view.mass_ratio, -along,
+                                               std::sqrt(dot(across, across)));
+    }
+    return laws::impulse(contact, e, eps, tangential, view.mass_ratio);
+}
+
 // Collision of rows i and j of different kinds along e.
 template <bool rough>
 void collide_kinds(const GasCollisionView& view, std::int32_t i, std::int32_t j, const Vector<double>& e) {
@@ -117,14 +131,7 @@ void collide_kinds(const GasCollisionView& view, std::int32_t i, std::int32_t j,
         const Vector<double> contact = g - cross(mixture.radius[a] * velocity_of(view.rows.spin, i) +
                                                      mixture.radius[b] * velocity_of(view.rows.spin, j),
                                                  e);
-        double tangential = view.tangential;
-        if (view.friction > 0) {
-            const double along = dot(contact, e);
-            const Vector<double> across = contact - along * e;
-            tangential = laws::sliding_restitution(tangential, view.friction, eps, view.mass_ratio, -along,
-                                                   std::sqrt(dot(across, across)));
-        }
-        push = laws::impulse(contact, e, eps, tangential, view.mass_ratio);
+        push = rough_impulse(view, contact, e, eps);
         const Vector<double> turn = cross(e, push);
         add_to(view.rows.spin, i, minus((share_i / (view.inertia * mixture.radius[a])) * turn));
         add_to(view.rows.spin, j, minus((share_j / (view.inertia * mixture.radius[b])) * turn));
@@ -144,14 +151,7 @@ void collide(const GasCollisionView& view, std::int32_t i, std::int32_t j, const
     if (rough) {
         const Vector<double> spins = velocity_of(view.rows.spin, i) + velocity_of(view.rows.spin, j);
         const Vector<double> contact = g - cross(view.radius * spins, e);
-        double tangential = view.tangential;
-        if (view.friction > 0) {
-            const double along = dot(contact, e);
-            const Vector<double> across = contact - along * e;
-            tangential = laws::sliding_restitution(tangential, view.friction, eps, view.mass_ratio, -along,
-                                                   std::sqrt(dot(across, across)));
-        }
-        push = laws::impulse(contact, e, eps, tangential, view.mass_ratio);
+        push = rough_impulse(view, contact, e, eps);
         const Vector<double> turn = (0.5 / (view.inertia * view.radius)) * cross(e, push);
         add_to(view.rows.spin, i, minus(turn));
         add_to(view.rows.spin, j, minus(turn));

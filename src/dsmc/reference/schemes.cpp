@@ -177,25 +177,25 @@ template <int dimension, bool rough> GasCollisions all_cells(const GasCollisionV
         if (!(cell.majorant > 0)) continue;
         const double pairs = 0.5 * cell.n * (cell.n - 1.0);
         if (!(4 * cell.rate * pairs * cell.majorant < most_candidates) ||
-            (view.scheme == GasScheme::bernoulli && !(pairs < most_candidates))) {
+            (view.scheme == laws::CollisionScheme::bernoulli && !(pairs < most_candidates))) {
             ++result.overflows;
             continue;
         }
         switch (view.scheme) {
-        case GasScheme::direction_first:
+        case laws::CollisionScheme::direction_first:
             direction_first<dimension, rough>(view, cell, result);
             break;
-        case GasScheme::nanbu_babovsky:
+        case laws::CollisionScheme::nanbu_babovsky:
             nanbu_babovsky<dimension, rough>(view, cell, result);
             break;
-        case GasScheme::majorant_frequency:
+        case laws::CollisionScheme::majorant_frequency:
             majorant_frequency<dimension, rough>(view, cell, result);
             break;
-        case GasScheme::bernoulli:
+        case laws::CollisionScheme::bernoulli:
             bernoulli<dimension, rough>(view, cell, result);
             break;
-        case GasScheme::no_time_counter:
-        case GasScheme::maxwell:
+        case laws::CollisionScheme::no_time_counter:
+        case laws::CollisionScheme::maxwell:
             break;
         }
     }
