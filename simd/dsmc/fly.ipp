@@ -4,6 +4,7 @@
 
 #include "laws/elementary.hpp"
 #include "motion/ballistic.hpp"
+#include "simd/dsmc/kinds.hpp"
 #include "simd/dsmc/sort.ipp"
 #include "simd/rows.hpp"
 #include "simd/words.hpp"
@@ -173,6 +174,7 @@ SANDLANE_INLINE GasFlight fly_rows(const GasFlightView& given) {
         if (view.kick > 0) kicks.template add<Arch, dimension>(x[3], v);
         R square = v[0] * v[0];
         for (int d = 1; d < dimension; ++d) square = square + v[d] * v[d];
+        if (view.mass != nullptr) square = square * look_up(view.mass, kind_of(v[3]));
         squares = squares + first_lanes(lanes, square);
         if (changes)
             for (int d = 0; d < gas_row; ++d) started[d] = v[d];

@@ -139,13 +139,15 @@ struct GasFlightView {
     GasRows stay, leave;
     // Kicks of the thermostat before the flight: standard deviation of each component, or 0.
     double kick;
+    // Of the kinds over that of the first, by which squares of velocities count; null: all count alike.
+    const double* mass;
     GasRandom random;
     const GasWalls* walls;
 };
 struct GasFlight {
     std::int32_t stay = 0, leave = 0;
     std::int64_t stuck = 0;     // particles that hit walls more than 64 times in one flight
-    double square_sum = 0;      // of the velocities, (m/s)^2, before the flight
+    double square_sum = 0;      // of the velocities by mass, (m/s)^2, before the flight
     double wall_energy[2] = {}; // that walls gave in either flight, per mass
 };
 using GasFly = GasFlight (*)(const GasFlightView&);

@@ -64,16 +64,21 @@ std::vector<double> temperature_rates(const MixtureGas& gas, const std::vector<d
         rates[i] = mass * gas.kicks;
         for (std::size_t j = 0; j < gas.size(); ++j) {
             const Encounter e = encounter(gas, i, j, t[i], t[j]);
-            const double push =
-                (1 + gas.restitution[i * gas.size() + j]) * gas.kinds[j].mass / (mass + gas.kinds[j].mass);
+            const double eps =
+                laws::restitution(gas.restitution[i * gas.size() + j], std::sqrt(2 * e.variance));
+            const double push = (1 + eps) * gas.kinds[j].mass / (mass + gas.kinds[j].mass);
             rates[i] += mass / gas.dimension * e.rate * 2 * push * (push * e.variance - 2 * t[i] / mass);
         }
     }
     return rates;
 }
 
-std::vector<std::vector<double>> cooling_curves(const MixtureGas& gas, double temperature,
-                                                const std::vector<double>& times) {
+namespace {
+
+// Goes from one temperature of all kinds through ascending times; visit(dt, temperatures) after each step.
+template <class Visit>
+std::vector<std::vector<double>> follow(const MixtureGas& gas, double temperature,
+                                        const std::vector<double>& times, const Visit& visit) {
     std::vector<std::vector<double>> curves;
     std::vector<double> now(gas.size(), temperature);
     const auto moved = [&](const std::vector<double>& rate, double dt) {
@@ -99,10 +104,31 @@ std::vector<std::vector<double>> cooling_curves(const MixtureGas& gas, double te
             for (std::size_t k = 0; k < now.size(); ++k)
                 now[k] += dt / 6 * (a[k] + 2 * b[k] + 2 * c[k] + d[k]);
             time = time + dt >= until ? until : time + dt;
+            visit(dt, now);
         }
         curves.push_back(now);
     }
     return curves;
+}
+
+} // namespace
+
+std::vector<std::vector<double>> cooling_curves(const MixtureGas& gas, double temperature,
+                                                const std::vector<double>& times) {
+    return follow(gas, temperature, times, [](double, const std::vector<double>&) {});
+}
+
+double collision_clock(const MixtureGas& gas, double temperature, double end) {
+    double density = 0, clock = 0, before = 1;
+    for (const MixtureKind& k : gas.kinds) density += k.density;
+    (void)follow(gas, temperature, {end}, [&](double dt, const std::vector<double>& now) {
+        double mean = 0;
+        for (std::size_t k = 0; k < now.size(); ++k) mean += gas.kinds[k].density / density * now[k];
+        const double speed = std::sqrt(mean / temperature);
+        clock += 0.5 * dt * (before + speed);
+        before = speed;
+    });
+    return clock;
 }
 
 // The rates scale as T^{3/2}, so the ratios come to rest in the clock of collisions: rescaled to T_0 = 1.

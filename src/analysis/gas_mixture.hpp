@@ -1,7 +1,9 @@
-// Kinetic theory of a homogeneous mixture of smooth hard particles with constant restitution: each kind cools
-// at its own rate until the ratios of the temperatures no longer change. They differ: there is no
+// Kinetic theory of a homogeneous mixture of smooth hard particles: each kind cools at its own rate until, at
+// constant restitution, the ratios of the temperatures no longer change. They differ: there is no
 // equipartition.
 #pragma once
+
+#include "laws/restitution_models.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -19,7 +21,8 @@ struct MixtureGas {
         false;        // pair correlations at contact of Mansoori et al., in the plane of Jenkins and Mancini
     double kicks = 0; // white noise xi^2 of each velocity component, m^2/s^3
     std::vector<MixtureKind> kinds;
-    std::vector<double> restitution; // [kinds^2]
+    // [kinds^2]; those that depend on the speed count as at its mean square along the line of centres.
+    std::vector<laws::Restitution> restitution;
 
     [[nodiscard]] std::size_t size() const { return kinds.size(); }
 };
@@ -38,7 +41,9 @@ struct MixtureGas {
 // Temperatures of all kinds at the ascending times [s], from one temperature at 0.
 [[nodiscard]] std::vector<std::vector<double>> cooling_curves(const MixtureGas& gas, double temperature,
                                                               const std::vector<double>& times);
-// T_i/T_0 that a gas without noise comes to.
+// Integral of sqrt(T/T_0) dt until `end` [s], T the mean of the kinds.
+[[nodiscard]] double collision_clock(const MixtureGas& gas, double temperature, double end);
+// T_i/T_0 that a gas of constant restitution without noise comes to.
 [[nodiscard]] std::vector<double> temperature_ratios(const MixtureGas& gas);
 
 } // namespace sandlane::analysis

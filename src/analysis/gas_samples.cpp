@@ -22,6 +22,31 @@ double maxwell_speed_density(int dimension, double c) {
 GasSamples::GasSamples(const GasFrame& gas, int axis, std::size_t bins)
     : gas_(gas), axis_(axis), bins_(bins), speeds_(speed_bins), components_(2 * speed_bins) {}
 
+GasVessel GasFrame::box() const {
+    GasVessel v;
+    v.dimension = dimension;
+    std::copy_n(lower, 3, v.lower);
+    std::copy_n(upper, 3, v.upper);
+    return v;
+}
+
+// Those of round walls cost more than a frame, and hardly ever change.
+void GasSamples::add_volumes(const GasVessel& vessel) {
+    if (volumes_.empty() || !(vessel == vessel_)) {
+        CellGrid grid;
+        std::copy_n(gas_.lower, 3, grid.lower);
+        std::copy_n(gas_.upper, 3, grid.upper);
+        grid.cells[axis_] = bins_.size();
+        volumes_ = contents(vessel, grid);
+        vessel_ = vessel;
+    }
+    for (std::size_t n = 0; n < bins_.size(); ++n) bins_[n].volume += volumes_[n];
+}
+
+double GasSamples::density(const Sums& bin) const {
+    return bin.volume > 0 ? bin.count * gas_.weight / bin.volume : 0;
+}
+
 std::string GasSamples::profile() const {
     const char axis = "xyz"[axis_];
     const auto d = static_cast<std::size_t>(gas_.dimension);
@@ -32,14 +57,11 @@ std::string GasSamples::profile() const {
     text += gas_.rough ? ",spin_temperature[J]\n" : "\n";
     const auto a = static_cast<std::size_t>(axis_);
     const double width = (gas_.upper[a] - gas_.lower[a]) / static_cast<double>(bins_.size());
-    const double volume = gas_.volume / static_cast<double>(bins_.size());
     for (std::size_t n = 0; n < bins_.size(); ++n) {
         const Sums& b = bins_[n];
-        const double density =
-            frames_ > 0 ? b.count * gas_.weight / volume / static_cast<double>(frames_) : 0;
-        const double count = std::max(b.count, 1.0);
+        const double number = density(b), count = std::max(b.count, 1.0);
         text += fmt::format("{:.9g},{:.9g},{:.9g}", gas_.lower[a] + (static_cast<double>(n) + 0.5) * width,
-                            density, density * gas_.particle_volume);
+                            number, number * gas_.particle_volume);
         double mean = 0, of[3] = {};
         for (std::size_t c = 0; c < d; ++c) {
             const double mass = b.mass > 0 ? b.mass : 1, u = b.velocity[c] / mass;
@@ -58,7 +80,7 @@ std::string GasSamples::profile() const {
 std::vector<GasSamples::ProfileRow> GasSamples::profile_rows() const {
     std::vector<ProfileRow> rows;
     const auto a = static_cast<std::size_t>(axis_);
-    const double bins = static_cast<double>(bins_.size()), width = (gas_.upper[a] - gas_.lower[a]) / bins;
+    const double width = (gas_.upper[a] - gas_.lower[a]) / static_cast<double>(bins_.size());
     for (std::size_t n = 0; n < bins_.size(); ++n) {
         const Sums& b = bins_[n];
         const double count = std::max(b.count, 1.0), mass = b.mass > 0 ? b.mass : 1;
@@ -66,10 +88,7 @@ std::vector<GasSamples::ProfileRow> GasSamples::profile_rows() const {
         for (std::size_t c = 0; c < static_cast<std::size_t>(gas_.dimension); ++c)
             temperature += gas_.mass / gas_.dimension *
                            std::max(0.0, (b.square[c] - b.velocity[c] * b.velocity[c] / mass) / count);
-        rows.push_back(
-            {gas_.lower[a] + (static_cast<double>(n) + 0.5) * width,
-             b.count * gas_.weight * bins / gas_.volume / std::max(1.0, static_cast<double>(frames_)),
-             temperature});
+        rows.push_back({gas_.lower[a] + (static_cast<double>(n) + 0.5) * width, density(b), temperature});
     }
     return rows;
 }

@@ -1,6 +1,8 @@
 // Averages over time of a gas: profiles across an axis, and the distribution of velocities.
 #pragma once
 
+#include "analysis/gas_vessel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,12 +14,19 @@ namespace sandlane::analysis {
 // The gas that frames are taken of.
 struct GasFrame {
     int dimension = 3;
-    double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1}; // m
-    double volume = 1, particle_volume = 1;            // m^3, m^2 in the plane
+    double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1}; // m, wherever the sides may get to
+    double particle_volume = 1;                        // m^3, m^2 in the plane; a mean of several kinds
     double weight = 1;                                 // real particles that one stands for
-    double mass = 1;                                   // kg, of one; a mean of several kinds
+    double mass = 1;                                   // kg, of the first kind
     bool rough = false;
-    double moment = 0; // rough: moment of inertia, kg m^2
+    double moment = 0; // rough: moment of inertia of the first kind, kg m^2
+
+    [[nodiscard]] GasVessel box() const; // the gas in a box of these sides
+};
+
+// A particle over those of the first kind.
+struct GasRatio {
+    double mass = 1, moment = 1;
 };
 
 class GasSamples {
@@ -25,12 +34,12 @@ public:
     // axis: across the bins.
     GasSamples(const GasFrame& gas, int axis, std::size_t bins);
 
-    // Particle: has place, velocity and spin, arrays of three numbers. mass_of(particle) in units of the mass
-    // of the frame.
-    template <class Particle, class MassOf>
-    void add(const std::vector<Particle>& particles, const MassOf& mass_of);
+    // Particle: has place, velocity and spin, arrays of three numbers. vessel: where they are now.
+    // ratio_of(particle): its GasRatio.
+    template <class Particle, class RatioOf>
+    void add(const std::vector<Particle>& particles, const GasVessel& vessel, const RatioOf& ratio_of);
     template <class Particle> void add(const std::vector<Particle>& particles) {
-        add(particles, [](const Particle&) { return 1.0; });
+        add(particles, gas_.box(), [](const Particle&) { return GasRatio{}; });
     }
     [[nodiscard]] std::int64_t frames() const { return frames_; }
 
@@ -54,11 +63,14 @@ public:
     void restore(const std::string& bytes);
 
 private:
-    struct Sums { // mass, and the rest weighted by it
+    struct Sums { // mass, and the rest weighted by it, or by the moment of inertia
         double count = 0, mass = 0, velocity[3] = {0, 0, 0}, square[3] = {0, 0, 0}, spin2 = 0;
+        double volume = 0; // of the bin, of all frames
     };
     // One frame, of one bin or of all particles.
-    template <class Particle> void take(const Particle& p, double mass, Sums& sums) const;
+    template <class Particle> void take(const Particle& p, const GasRatio& ratio, Sums& sums) const;
+    void add_volumes(const GasVessel& vessel);
+    [[nodiscard]] double density(const Sums& bin) const;
 
     static constexpr std::size_t speed_bins = 120;
     static constexpr double fastest = 6; // in units of sqrt(2T/m)
@@ -69,31 +81,35 @@ private:
     std::vector<Sums> bins_;
     std::vector<double> speeds_, components_; // numbers of particles; of |c|, and of c in all directions
     double counted_ = 0;
+    GasVessel vessel_;            // of the last frame
+    std::vector<double> volumes_; // of the bins in it
 };
 
-template <class Particle> void GasSamples::take(const Particle& p, double mass, Sums& sums) const {
+template <class Particle> void GasSamples::take(const Particle& p, const GasRatio& ratio, Sums& sums) const {
     sums.count += 1;
-    sums.mass += mass;
+    sums.mass += ratio.mass;
     for (std::size_t d = 0; d < static_cast<std::size_t>(gas_.dimension); ++d) {
-        sums.velocity[d] += mass * p.velocity[d];
-        sums.square[d] += mass * (p.velocity[d] * p.velocity[d]);
+        sums.velocity[d] += ratio.mass * p.velocity[d];
+        sums.square[d] += ratio.mass * (p.velocity[d] * p.velocity[d]);
     }
-    for (const double w : p.spin) sums.spin2 += w * w;
+    for (const double w : p.spin) sums.spin2 += ratio.moment * (w * w);
 }
 
-template <class Particle, class MassOf>
-void GasSamples::add(const std::vector<Particle>& particles, const MassOf& mass_of) {
+template <class Particle, class RatioOf>
+void GasSamples::add(const std::vector<Particle>& particles, const GasVessel& vessel,
+                     const RatioOf& ratio_of) {
     if (particles.empty()) return;
     ++frames_;
+    add_volumes(vessel);
     Sums all;
     const auto axis = static_cast<std::size_t>(axis_);
     const double lower = gas_.lower[axis], length = gas_.upper[axis] - lower;
     const auto last = static_cast<double>(bins_.size() - 1);
     for (const Particle& p : particles) {
         const double at = std::floor((p.place[axis] - lower) / length * static_cast<double>(bins_.size()));
-        const double mass = mass_of(p);
-        take(p, mass, bins_[static_cast<std::size_t>(std::clamp(at, 0.0, last))]);
-        take(p, mass, all);
+        const GasRatio ratio = ratio_of(p);
+        take(p, ratio, bins_[static_cast<std::size_t>(std::clamp(at, 0.0, last))]);
+        take(p, ratio, all);
     }
     const auto d = static_cast<std::size_t>(gas_.dimension);
     double mean[3] = {}, variance = 0;
@@ -104,7 +120,7 @@ void GasSamples::add(const std::vector<Particle>& particles, const MassOf& mass_
     if (!(variance > 0)) return;
     constexpr double per_unit = speed_bins / fastest;
     for (const Particle& p : particles) {
-        const double scale = std::sqrt(mass_of(p)) / std::sqrt(2 * variance);
+        const double scale = std::sqrt(ratio_of(p).mass) / std::sqrt(2 * variance);
         double square = 0;
         for (std::size_t c = 0; c < d; ++c) {
             const double v = (p.velocity[c] - mean[c]) * scale;

@@ -66,13 +66,14 @@ GasStructure::GasStructure(const StructurePlan& plan) : plan_(plan) {
     density_ = shear_ = density_sum_ = shear_sum_ = std::vector<double>(k_.size(), 0.0);
 }
 
-void GasStructure::add(double time, const std::vector<StructureParticle>& particles, bool counts) {
+void GasStructure::add(double time, const std::vector<StructureParticle>& particles, const GasVessel& vessel,
+                       bool counts) {
     if (particles.empty()) return;
     StructureRow row;
     row.time = time;
     take_spectra(particles, row);
     take_clusters(particles, row);
-    take_fluctuation(particles, row);
+    take_fluctuation(particles, vessel, row);
     rows_.push_back(row);
     if (!counts) return;
     ++counted_;
@@ -229,28 +230,40 @@ void GasStructure::take_clusters(const std::vector<StructureParticle>& particles
     row.mean_size = squares / static_cast<double>(particles.size());
 }
 
-void GasStructure::take_fluctuation(const std::vector<StructureParticle>& particles,
-                                    StructureRow& row) const {
+// By chance the number in a cell with the part p of the volume has the variance N p (1 - p).
+void GasStructure::take_fluctuation(const std::vector<StructureParticle>& particles, const GasVessel& vessel,
+                                    StructureRow& row) {
     const GasFrame& gas = plan_.gas;
     const auto d = static_cast<std::size_t>(gas.dimension);
-    std::size_t cells[3] = {1, 1, 1}, total = 1;
-    for (std::size_t c = 0; c < d; ++c) {
-        cells[c] = static_cast<std::size_t>(
+    CellGrid grid;
+    std::copy_n(gas.lower, 3, grid.lower);
+    std::copy_n(gas.upper, 3, grid.upper);
+    for (std::size_t c = 0; c < d; ++c)
+        grid.cells[c] = static_cast<std::size_t>(
             std::clamp(std::floor((gas.upper[c] - gas.lower[c]) / plan_.cell), 1.0, 4096.0));
-        total *= cells[c];
-    }
+    const std::size_t total = grid.cells[0] * grid.cells[1] * grid.cells[2];
     if (total < 2) return;
+    if (volumes_.size() != total || !(vessel == vessel_)) {
+        volumes_ = contents(vessel, grid);
+        vessel_ = vessel;
+    }
     std::vector<double> count(total, 0.0);
     for (const StructureParticle& p : particles) {
         std::size_t at = 0;
         for (std::size_t c = d; c-- > 0;)
-            at = at * cells[c] + cell_at(p.place[c], gas.lower[c], gas.upper[c] - gas.lower[c], cells[c]);
+            at = at * grid.cells[c] +
+                 cell_at(p.place[c], gas.lower[c], gas.upper[c] - gas.lower[c], grid.cells[c]);
         count[at] += 1;
     }
-    const double mean = static_cast<double>(particles.size()) / static_cast<double>(total);
-    double variance = 0;
-    for (const double n : count) variance += (n - mean) * (n - mean) / static_cast<double>(total);
-    row.fluctuation = variance / (mean * (1 - 1 / static_cast<double>(total)));
+    const double volume = std::accumulate(volumes_.begin(), volumes_.end(), 0.0),
+                 n = static_cast<double>(particles.size());
+    double variance = 0, of_chance = 0;
+    for (std::size_t at = 0; at < total; ++at) {
+        const double part = volumes_[at] / volume;
+        variance += (count[at] - n * part) * (count[at] - n * part);
+        of_chance += n * part * (1 - part);
+    }
+    row.fluctuation = of_chance > 0 ? variance / of_chance : 1;
 }
 
 std::vector<GasStructure::Shell> GasStructure::shells() const {

@@ -40,8 +40,9 @@ class GasStructure {
 public:
     explicit GasStructure(const StructurePlan& plan);
 
-    // counts: the frame takes part in averages.
-    void add(double time, const std::vector<StructureParticle>& particles, bool counts);
+    // vessel: where the particles are now. counts: the frame takes part in averages.
+    void add(double time, const std::vector<StructureParticle>& particles, const GasVessel& vessel,
+             bool counts);
 
     [[nodiscard]] const std::vector<StructureRow>& rows() const { return rows_; }
     // By shell of wave numbers, ascending: the last frame, and the mean of those that count.
@@ -68,7 +69,8 @@ private:
     };
     void take_spectra(const std::vector<StructureParticle>& particles, StructureRow& row);
     void take_clusters(const std::vector<StructureParticle>& particles, StructureRow& row);
-    void take_fluctuation(const std::vector<StructureParticle>& particles, StructureRow& row) const;
+    void take_fluctuation(const std::vector<StructureParticle>& particles, const GasVessel& vessel,
+                          StructureRow& row);
 
     StructurePlan plan_;
     std::vector<Wave> waves_;
@@ -76,6 +78,8 @@ private:
     std::vector<double> density_, shear_, density_sum_, shear_sum_, sizes_;
     std::vector<StructureRow> rows_;
     std::int64_t counted_ = 0;
+    GasVessel vessel_;            // of the last frame
+    std::vector<double> volumes_; // of the cells in it
 };
 
 } // namespace sandlane::analysis

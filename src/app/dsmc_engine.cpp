@@ -223,10 +223,13 @@ std::vector<dsmc::Particle> DsmcEngine::thermal_particles() const {
 
 void DsmcEngine::sample(analysis::GasSamples& samples) const {
     const dsmc::Setup& s = plan_->setup;
-    if (kinds() == 1) return samples.add(thermal_particles());
-    std::vector<double> ratio;
-    for (std::size_t k = 0; k < kinds(); ++k) ratio.push_back(s.kind(k).mass / s.mass);
-    samples.add(thermal_particles(), [&](const dsmc::Particle& p) { return ratio[p.kind]; });
+    std::vector<analysis::GasRatio> ratio;
+    for (std::size_t k = 0; k < kinds(); ++k) {
+        const dsmc::Kind kind = s.kind(k);
+        const double mass = kind.mass / s.mass, size = kind.diameter / s.diameter;
+        ratio.push_back({mass, mass * size * size});
+    }
+    samples.add(thermal_particles(), vessel(), [&](const dsmc::Particle& p) { return ratio[p.kind]; });
 }
 
 analysis::GasStructure DsmcEngine::make_structure() const {

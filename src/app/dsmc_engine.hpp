@@ -21,6 +21,9 @@ public:
     [[nodiscard]] GasSampling sampling() const override;
     [[nodiscard]] analysis::GasSamples make_samples() const override;
     void sample(analysis::GasSamples& samples) const override;
+    [[nodiscard]] analysis::GasVessel vessel() const override {
+        return dsmc::vessel_of(plan_->setup, simulation_.time());
+    }
     [[nodiscard]] analysis::GasStructure make_structure() const override;
     [[nodiscard]] std::vector<analysis::StructureParticle> structure_particles() const override;
 

@@ -47,7 +47,7 @@ analysis::MixtureGas mixture_of(const edmd::Plan& plan) {
     gas.kicks = s.kicks;
     for (std::size_t k = 0; k < s.classes.size(); ++k)
         gas.kinds.push_back({plan.amounts[k] / s.volume(), s.classes[k].mass, 2 * s.classes[k].radius});
-    gas.restitution.assign(gas.size() * gas.size(), s.restitution.eps);
+    gas.restitution.assign(gas.size() * gas.size(), s.restitution);
     return gas;
 }
 
@@ -165,9 +165,14 @@ public:
                 static_cast<std::size_t>(scene_->edmd.profile_bins)};
     }
     void sample(analysis::GasSamples& samples) const override {
-        const std::vector<edmd::Class>& classes = plan_->setup.classes;
-        samples.add(run_->particles(),
-                    [&](const edmd::Particle& p) { return classes[p.kind].mass / classes[0].mass; });
+        std::vector<analysis::GasRatio> ratio;
+        for (const edmd::Class& c : plan_->setup.classes)
+            ratio.push_back(
+                {c.mass / plan_->setup.classes[0].mass, c.moment() / plan_->setup.classes[0].moment()});
+        samples.add(run_->particles(), vessel(), [&](const edmd::Particle& p) { return ratio[p.kind]; });
+    }
+    [[nodiscard]] analysis::GasVessel vessel() const override {
+        return edmd::vessel_of(plan_->setup, time());
     }
     [[nodiscard]] analysis::GasStructure make_structure() const override {
         const edmd::Setup& s = plan_->setup;

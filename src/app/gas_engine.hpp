@@ -19,6 +19,7 @@ public:
     [[nodiscard]] virtual GasSampling sampling() const = 0;
     [[nodiscard]] virtual analysis::GasSamples make_samples() const = 0;
     virtual void sample(analysis::GasSamples& samples) const = 0;
+    [[nodiscard]] virtual analysis::GasVessel vessel() const = 0; // where the particles are now
     [[nodiscard]] virtual analysis::GasStructure make_structure() const = 0;
     [[nodiscard]] virtual std::vector<analysis::StructureParticle> structure_particles() const = 0;
 

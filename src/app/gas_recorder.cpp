@@ -55,7 +55,7 @@ void GasRecorder::write_due(bool all) {
         engine_.time() >= engine_.sampling().start)
         engine_.sample(samples_);
     if (structure_timer_.is_due(engine_, all))
-        structure_.add(engine_.time(), engine_.structure_particles(),
+        structure_.add(engine_.time(), engine_.structure_particles(), engine_.vessel(),
                        engine_.time() > 0 && engine_.time() >= engine_.sampling().start);
     const bool picture = picture_timer_.is_due(engine_, all),
                trajectory = trajectory_timer_.is_due(engine_, all);

@@ -247,6 +247,12 @@ std::string describe(const scene::Scene& scene, const Plan& plan) {
         line("critical lengths",
              fmt::format("{:.4g} m of vortices, {:.4g} m of clusters", l.shear, l.cluster));
     }
+    if (is_homogeneous(s) && !s.others.empty() && s.kicks == 0) {
+        std::string ratios;
+        for (const double ratio : analysis::temperature_ratios(mixture_gas(s, n)))
+            ratios += fmt::format("{}{:.4g}", ratios.empty() ? "" : " : ", ratio);
+        line("temperatures of the kinds", ratios + " in the long run");
+    }
     line("cells", fmt::format("{} x {}{}, {:.3g} particles each, {:.3g} mean free paths long", s.cells[0],
                               s.cells[1], s.dimension == 3 ? fmt::format(" x {}", s.cells[2]) : "",
                               static_cast<double>(n) / count, edge / scale.free_path));

@@ -151,13 +151,25 @@ analysis::GasFrame frame_of(const Setup& setup) {
         f.lower[d] = setup.lower[d];
         f.upper[d] = setup.upper[d];
     }
-    f.volume = setup.volume();
     f.particle_volume = setup.particle_volume();
     f.weight = setup.weight;
     f.mass = setup.mass;
     f.rough = setup.rough;
     f.moment = setup.inertia * setup.mass * 0.25 * setup.diameter * setup.diameter;
     return f;
+}
+
+analysis::GasVessel vessel_of(const Setup& setup, double time) {
+    analysis::GasVessel v = frame_of(setup).box();
+    for (int d = 0; d < setup.dimension; ++d) {
+        const auto moved = [&](int upper) {
+            const simd::GasSide& side = setup.walls.side[d][upper];
+            return side.moves() ? side.motion.displacement(time) : 0.0;
+        };
+        v.lower[d] += moved(0);
+        v.upper[d] -= moved(1);
+    }
+    return v;
 }
 
 Scales scales(const Setup& setup, std::size_t particles, double temperature) {

@@ -75,6 +75,8 @@ struct Particle {
 
 // What frames of this gas are taken of.
 [[nodiscard]] analysis::GasFrame frame_of(const Setup& setup);
+// Where the particles are at a time.
+[[nodiscard]] analysis::GasVessel vessel_of(const Setup& setup, double time);
 
 // Numbers of the gas at density n F and temperature T [J], dilute or after Enskog.
 struct Scales {

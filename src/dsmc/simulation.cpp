@@ -84,6 +84,7 @@ Simulation::Simulation(const Setup& setup, const std::vector<Particle>& particle
         simd::GasWallKind& wall = setup_.walls.kind[k];
         wall.mass = kind.mass / setup.mass;
         wall.speed = std::sqrt(setup.mass / kind.mass);
+        if (setup.adaptive && !setup.others.empty()) mass_.push_back(wall.mass);
         if (!setup.rough) continue;
         wall.radius = 0.5 * kind.diameter;
         wall.spin_speed = 1 / std::sqrt(setup.inertia * 0.25 * kind.diameter * kind.diameter);
@@ -114,17 +115,26 @@ Simulation::Simulation(const Setup& setup, const std::vector<Particle>& particle
     place_particles(particles);
     dt_ = next_dt_ = setup_.dt;
     first_square_sum_ = square_sum_;
+    find_maxwell_rate();
+}
+
+// Collisions of a particle per second at the temperature of the start.
+void Simulation::find_maxwell_rate() {
+    if (setup_.scheme != laws::CollisionScheme::maxwell || size_ == 0) return;
+    const double start = setup_.mass * first_square_sum_ / (setup_.dimension * static_cast<double>(size_));
+    maxwell_rate_ = scales(setup_, size_, start).collision_rate;
 }
 
 // Particles stand in the tile where they are, in the order given.
 void Simulation::place_particles(const std::vector<Particle>& particles) {
     std::vector<std::int32_t> number(particles.size()), count(tiles_.size(), 0);
     square_sum_ = 0;
+    const auto mass_of = [&](const Particle& p) { return mass_.empty() ? 1.0 : mass_[p.kind]; };
     for (std::size_t i = 0; i < particles.size(); ++i) {
         double cell = 0;
         for (std::size_t d = 0; d < static_cast<std::size_t>(setup_.dimension); ++d) {
             cell += laws::nearest_cell_number(axis_[d], particles[i].place[d]);
-            square_sum_ += particles[i].velocity[d] * particles[i].velocity[d];
+            square_sum_ += mass_of(particles[i]) * particles[i].velocity[d] * particles[i].velocity[d];
         }
         number[i] = static_cast<std::int32_t>(cell);
         ++count[static_cast<std::size_t>(number[i] / tiling_.cells_per_tile())];
@@ -281,6 +291,7 @@ simd::GasFlightView Simulation::flight_view(Pass what) const {
         view.axis[d] = axis_[d];
     }
     view.sort = what.prepare;
+    view.mass = mass_.empty() ? nullptr : mass_.data();
     view.kick = what.collide && setup_.kicks > 0 ? std::sqrt(setup_.kicks * dt_) : 0;
     view.random = random();
     view.walls = &setup_.walls;
@@ -358,13 +369,9 @@ void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) {
                              static_cast<std::vector<simd::GasDecision>*>(to)->push_back(decision);
                          },
                          &heard_[static_cast<std::size_t>(t)]};
-    const bool maxwell = setup_.scheme == laws::CollisionScheme::maxwell;
-    if (maxwell) {
-        const double start =
-            setup_.mass * first_square_sum_ / (setup_.dimension * static_cast<double>(size_));
-        view.maxwell = 0.5 * dt_ * scales(setup_, size_, start).collision_rate;
-    }
-    const bool vector = maxwell || setup_.scheme == laws::CollisionScheme::no_time_counter;
+    view.maxwell = 0.5 * dt_ * maxwell_rate_;
+    const bool vector = setup_.scheme == laws::CollisionScheme::maxwell ||
+                        setup_.scheme == laws::CollisionScheme::no_time_counter;
     const simd::DsmcKernels& kernels = vector ? *kernels_ : simd::dsmc_kernels(simd::Isa::scalar);
     result.collisions = kernels.collide[setup_.dimension - 2][setup_.rough ? 1 : 0][mixed ? 1 : 0](view);
 }

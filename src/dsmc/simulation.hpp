@@ -116,6 +116,7 @@ private:
     void send(std::int32_t tile, Scratch& scratch, Result& result);
     [[nodiscard]] simd::GasFlightView flight_view(Pass what) const;
     void choose_next_dt();
+    void find_maxwell_rate();
     void set_safe_region();
     [[nodiscard]] simd::GasRandom random() const;
     template <class Body> void for_rows(const Body& body) const;
@@ -136,7 +137,9 @@ private:
     std::int64_t step_ = 0;
     double time_ = 0, dt_ = 0, next_dt_ = 0;
     double square_sum_ = 0,
-           first_square_sum_ = 0; // of the velocities after the last collisions, at the start
+           first_square_sum_ = 0; // of the velocities by mass, after the last collisions, at the start
+    std::vector<double> mass_; // of the kinds over that of the first where the step follows them, else empty
+    double maxwell_rate_ = 0;  // of Maxwell molecules, else 0, 1/s
     Counts counts_;
     double wall_energy_ = 0;
     std::vector<std::vector<simd::GasDecision>> heard_; // of this step, by tile; empty: nobody listens

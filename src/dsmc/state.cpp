@@ -173,6 +173,7 @@ void Simulation::restore(const std::string& bytes) {
         total += count;
     }
     belongs(total == size_ && in.at_end());
+    find_maxwell_rate();
 }
 
 } // namespace sandlane::dsmc

@@ -19,8 +19,7 @@ analysis::MixtureGas mixture_gas(const Setup& setup, std::size_t particles) {
     for (std::size_t i = 0; i < setup.kinds(); ++i) {
         const Kind k = setup.kind(i);
         gas.kinds.push_back({density * k.fraction, k.mass, k.diameter});
-        for (std::size_t j = 0; j < setup.kinds(); ++j)
-            gas.restitution.push_back(setup.restitution_of(i, j).eps);
+        for (std::size_t j = 0; j < setup.kinds(); ++j) gas.restitution.push_back(setup.restitution_of(i, j));
     }
     return gas;
 }
@@ -45,7 +44,11 @@ std::vector<double> kind_temperatures(const Setup& setup, std::size_t particles,
 }
 
 double adaptive_steps(const Setup& setup, std::size_t particles, double temperature, double duration) {
-    return analysis::collision_clock(gas_of(setup, particles), temperature, duration) / setup.dt;
+    const double clock =
+        setup.others.empty()
+            ? analysis::collision_clock(gas_of(setup, particles), temperature, duration)
+            : analysis::collision_clock(mixture_gas(setup, particles), temperature, duration);
+    return clock / setup.dt;
 }
 
 } // namespace sandlane::dsmc

@@ -12,7 +12,7 @@ namespace sandlane::dsmc {
 // The gas at its density, dilute or after Enskog.
 [[nodiscard]] analysis::HardGas gas_of(const Setup& setup, std::size_t particles);
 
-// Of several kinds. Restitution: its constant, which says nothing where it depends on the speed.
+// Of several kinds.
 [[nodiscard]] analysis::MixtureGas mixture_gas(const Setup& setup, std::size_t particles);
 
 // analysis::cooling_curve of this gas; NaN for rough particles.

@@ -135,7 +135,7 @@ Observables observe(const Setup& setup, const std::vector<Particle>& particles) 
         fourth += thermal * thermal;
         o.of_class[p.kind] += thermal / dimension;
         ++count[p.kind];
-        const double moment = c.inertia * c.mass * c.radius * c.radius;
+        const double moment = c.moment();
         for (const double w : p.spin) {
             o.spin_temperature += moment * w * w / (d == 3 ? 3 : 1) / n;
             o.energy += 0.5 * moment * w * w;

@@ -22,8 +22,7 @@ double component(const Vector<double>& v, int axis) {
 
 double kinetic(const Setup& setup, const Body& b) {
     const Class& c = setup.classes[b.kind];
-    const double moment = c.inertia * c.mass * c.radius * c.radius;
-    return 0.5 * c.mass * dot(b.velocity, b.velocity) + 0.5 * moment * dot(b.spin, b.spin);
+    return 0.5 * c.mass * dot(b.velocity, b.velocity) + 0.5 * c.moment() * dot(b.spin, b.spin);
 }
 
 } // namespace

@@ -207,17 +207,32 @@ analysis::GasFrame frame_of(const Plan& plan) {
     const Setup& s = plan.setup;
     analysis::GasFrame f;
     f.dimension = s.dimension;
-    for (int d = 0; d < 3; ++d) {
-        f.lower[d] = s.lower[d];
-        f.upper[d] = s.upper[d];
+    for (int d = 0; d < 3; ++d) { // with the room that a receding piston makes
+        f.lower[d] = s.lower[d] + std::min(s.side[d][0].speed, 0.0) * plan.duration;
+        f.upper[d] = s.upper[d] - std::min(s.side[d][1].speed, 0.0) * plan.duration;
     }
-    f.volume = s.volume();
     f.particle_volume =
         packing_fraction(s, plan.amounts) * s.volume() / static_cast<double>(plan.particles());
     f.mass = s.classes[0].mass;
     f.rough = s.rough;
-    f.moment = s.classes[0].inertia * f.mass * s.classes[0].radius * s.classes[0].radius;
+    f.moment = s.classes[0].moment();
     return f;
+}
+
+analysis::GasVessel vessel_of(const Setup& s, double time) {
+    analysis::GasVessel v;
+    v.dimension = s.dimension;
+    for (int d = 0; d < 3; ++d) {
+        const auto moved = [&](int upper) {
+            const Side& side = s.side[d][upper];
+            return side.oscillates() ? side.motion.displacement(time) : side.speed * time;
+        };
+        v.lower[d] = s.lower[d] + moved(0);
+        v.upper[d] = s.upper[d] - moved(1);
+    }
+    for (const Curved& c : s.curved)
+        v.round.push_back({{c.center[0], c.center[1], c.center[2]}, c.radius, c.axis, c.container});
+    return v;
 }
 
 Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& threads) {
@@ -261,7 +276,7 @@ double memory_bytes(const Plan& plan) {
 }
 
 std::unique_ptr<Algorithm> start(const scene::Scene& scene, const Plan& plan, simd::Isa isa) {
-    const Start start{static_cast<Start::Kind>(scene.edmd.start), scene.edmd.growth_rate, plan.threads};
+    const Start start{static_cast<Start::Kind>(scene.edmd.start), scene.edmd.growth_rate, plan.threads, isa};
     const std::vector<Particle> particles =
         make_particles(plan.setup, plan.amounts, scene.gas.temperature, scene.gas.spin_temperature, start);
     if (plan.simple) return std::make_unique<SimpleAlgorithm>(plan.setup, particles);

@@ -40,5 +40,7 @@ struct Plan {
 [[nodiscard]] analysis::HardGas gas_of(const Plan& plan);
 // What frames of it are taken of; masses in units of that of the first class.
 [[nodiscard]] analysis::GasFrame frame_of(const Plan& plan);
+// Where the particles are at a time of the clock.
+[[nodiscard]] analysis::GasVessel vessel_of(const Setup& setup, double time);
 
 } // namespace sandlane::edmd

@@ -15,6 +15,8 @@ namespace sandlane::edmd {
 struct Class {
     double radius = 0.5, mass = 1; // m, kg
     double inertia = 0.4;          // J = inertia m R^2
+
+    [[nodiscard]] double moment() const { return inertia * mass * radius * radius; } // kg m^2
 };
 
 // A side of the box that is not periodic.

@@ -243,7 +243,7 @@ bool place_at_random(const Setup& setup, std::vector<Particle>& particles) {
 }
 
 void place(const Setup& setup, std::vector<Particle>& particles, const Start& start) {
-    if (start.kind == Start::Kind::growth) return grow(setup, particles, start.growth_rate, start.threads);
+    if (start.kind == Start::Kind::growth) return grow(setup, particles, start);
     if (start.kind == Start::Kind::lattice) return place_on_lattice(setup, particles);
     Amounts amounts(setup.classes.size());
     for (const Particle& p : particles) ++amounts[p.kind];

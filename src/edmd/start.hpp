@@ -2,6 +2,7 @@
 #pragma once
 
 #include "edmd/setup.hpp"
+#include "simd/tables.hpp"
 
 #include <vector>
 
@@ -16,6 +17,7 @@ struct Start {
     enum class Kind { automatic, random, lattice, growth } kind = Kind::automatic;
     double growth_rate = 0.05; // see grow()
     int threads = 1;
+    simd::Isa isa = simd::Isa::scalar; // that particles grow by: the same places by all
 };
 // Places without overlap. Throws Error(invalid_input) where they do not fit.
 void place(const Setup& setup, std::vector<Particle>& particles, const Start& start = {});

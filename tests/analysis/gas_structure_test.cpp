@@ -45,7 +45,7 @@ TEST(GasStructure, OfChance) {
         analysis::GasStructure structure(plan);
         auto particles = at_random(d, edge, 20000);
         for (auto& p : particles) p.radius = 1e-6;
-        structure.add(1, particles, true);
+        structure.add(1, particles, plan.gas.box(), true);
         const auto shells = structure.shells();
         EXPECT_NEAR(shells.front().k, 2 * std::numbers::pi / edge, 1e-12);
         double waves = 0, density = 0, shear = 0;
@@ -79,7 +79,7 @@ TEST(GasStructure, OfWaves) {
         particles[i].radius = 1e-3;
     }
     analysis::GasStructure structure(box(2, edge));
-    structure.add(0, particles, true);
+    structure.add(0, particles, box(2, edge).gas.box(), true);
     // The first shell has this wave, and one along y.
     EXPECT_NEAR(structure.shells().front().density / (n * a * a / 4 / 2), 1, 0.01);
     const double temperature = 1.0 / 12 + 0.25 * b * b; // mean of both directions
@@ -105,13 +105,13 @@ TEST(GasStructure, Clusters) {
         chain(20, 20, 5);
         chain(20, 22, 1);
         analysis::GasStructure structure(plan);
-        structure.add(0, particles, false);
+        structure.add(0, particles, plan.gas.box(), false);
         EXPECT_NEAR(structure.rows()[0].largest, 12.0 / 18, 1e-12) << d;
         EXPECT_NEAR(structure.rows()[0].mean_size, (144 + 25 + 1) / 18.0, 1e-12);
         EXPECT_EQ(structure.sizes(), (std::vector<double>{1, 0, 1, 1}));
         plan.periodic[0] = plan.periodic[1] = false; // the chain is cut in two
         analysis::GasStructure cut(plan);
-        cut.add(0, particles, false);
+        cut.add(0, particles, plan.gas.box(), false);
         EXPECT_NEAR(cut.rows()[0].largest, 5.0 / 18, 1e-12);
 
         analysis::GasStructure again(box(d, 40));

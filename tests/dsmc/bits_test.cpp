@@ -57,6 +57,9 @@ std::vector<Case> cases() {
     s.enskog = true;
     s.kicks = 0.01;
     add("mixture", s, 6000);
+    s.kicks = 0;
+    s.adaptive = true;
+    add("adaptive_mixture", s, 6000);
     s = test::gas(2, 0.9, 4000, 20);
     s.others = {{3, 1.4, 0.4}};
     s.restitution.model = laws::Restitution::Model::viscoelastic;

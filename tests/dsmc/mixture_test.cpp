@@ -70,7 +70,7 @@ TEST(Mixture, OfEqualsIsTheGas) {
         two.dimension = d;
         two.dense = true;
         two.kinds = {{0.06, 1, 1}, {0.04, 1, 1}};
-        two.restitution = {0.8, 0.8, 0.8, 0.8};
+        two.restitution.assign(4, {laws::Restitution::Model::constant, 0.8});
         const double packing = std::numbers::pi * 0.1 / (d == 3 ? 6 : 4);
         const analysis::HardGas one{d, 0.1, laws::contact_correlation(d, packing), 1, 1, {}, 0};
         EXPECT_NEAR(analysis::collision_rate(two, 1) / analysis::collision_rate(one, 1), 1, 1e-12);
@@ -120,6 +120,28 @@ TEST(Mixture, TemperaturesDifferSlow) {
             const auto curve = dsmc::kind_temperatures(s, n, 1, gas.time());
             EXPECT_NEAR(gas.observe().of_kind[0] / curve[0], 1, 0.05) << d << " " << eps;
         }
+}
+
+// The step follows the temperature of all kinds, by their masses, and the number of steps is foreseen: heavy
+// particles that meet elastically lose less than the light ones among themselves.
+TEST(Mixture, AdaptiveStep) {
+    const std::uint32_t n = 4000;
+    dsmc::Setup s = mixture(3, 0.6, n, 1);
+    s.pairs = {{1, 1, 1, 0}, {0, 1, 1, 0}};
+    s.adaptive = true;
+    s.dt = 0.2;
+    dsmc::Simulation gas = simulate(s, n);
+    const double duration = 60;
+    const double steps = dsmc::adaptive_steps(s, n, 1, duration);
+    gas.run(1000000, duration);
+    EXPECT_NEAR(static_cast<double>(gas.step()) / steps, 1, 0.03);
+    const double hot = gas.observe().temperature;
+    gas.run(1);
+    EXPECT_NEAR(gas.dt() / (s.dt / std::sqrt(hot)), 1, 0.01);
+    // Alone, the kind of [gas] would have cooled much further.
+    dsmc::Setup one = s;
+    one.others.clear();
+    EXPECT_LT(dsmc::adaptive_steps(one, n, 1, duration), 0.9 * steps);
 }
 
 // Between walls of one temperature all kinds have it.

@@ -286,7 +286,17 @@ TEST(EdmdGrowth, BothAlgorithms) {
     }
 }
 
-// Denser than random insertion can be, without order, and the same by any number of threads.
+// Slow growth takes thousands of collisions of each and is not called jammed.
+TEST(EdmdGrowth, Slow) {
+    const edmd::Setup s = test::hard_gas(3, 0.45, 1, 64);
+    const edmd::Start start{edmd::Start::Kind::growth, 2e-4, 1, widest()};
+    edmd::Simulation gas(s, edmd::make_particles(s, {64}, 1.0, 0, start), widest(), 1);
+    gas.run(5000);
+    EXPECT_GT(gas.tally().smallest_gap, -1e-12);
+}
+
+// Denser than random insertion can be, without order, and the same by any number of threads and by the
+// reference.
 TEST(EdmdGrowth, DenseStarts) {
     struct Point {
         int dimension;
@@ -296,7 +306,7 @@ TEST(EdmdGrowth, DenseStarts) {
     for (const Point& p : {Point{2, 0.75, 300}, Point{3, 0.58, 500}}) {
         SCOPED_TRACE(p.dimension);
         const edmd::Setup s = test::hard_gas(p.dimension, p.phi, 1, p.n);
-        const edmd::Start start{edmd::Start::Kind::growth, 0.1, 1};
+        const edmd::Start start{edmd::Start::Kind::growth, 0.1, 1, widest()};
         const auto particles = edmd::make_particles(s, {p.n}, 1.0, 0, start);
         double closest = 1e9;
         for (std::size_t i = 0; i < particles.size(); ++i)
@@ -311,7 +321,8 @@ TEST(EdmdGrowth, DenseStarts) {
             }
         EXPECT_GE(closest, 1);
         EXPECT_LT(closest, 1.01);
-        const auto again = edmd::make_particles(s, {p.n}, 1.0, 0, {edmd::Start::Kind::growth, 0.1, 3});
+        const auto again =
+            edmd::make_particles(s, {p.n}, 1.0, 0, {edmd::Start::Kind::growth, 0.1, 3, simd::Isa::scalar});
         for (std::size_t i = 0; i < particles.size(); ++i) EXPECT_EQ(particles[i].place, again[i].place);
         edmd::Simulation gas(s, particles, widest(), 1);
         gas.run(20000);
@@ -322,7 +333,8 @@ TEST(EdmdGrowth, DenseStarts) {
     edmd::Setup s = test::hard_gas(2, 0.5, 1, 200);
     s.classes = {{0.5, 1, 0.5}, {0.25, 0.25, 0.5}};
     s.periodic[0] = s.periodic[1] = false;
-    const auto particles = edmd::make_particles(s, {150, 150}, 1.0, 0, {edmd::Start::Kind::growth, 0.1, 1});
+    const auto particles =
+        edmd::make_particles(s, {150, 150}, 1.0, 0, {edmd::Start::Kind::growth, 0.1, 1, widest()});
     edmd::Simulation gas(s, particles, widest(), 1);
     gas.run(20000);
     EXPECT_GT(gas.tally().smallest_gap, -1e-12);
@@ -332,7 +344,7 @@ TEST(EdmdGrowth, DenseStarts) {
 TEST(SlowEdmdGrowth, Jams) {
     const edmd::Setup s = test::hard_gas(3, 0.70, 1, 100);
     try {
-        (void)edmd::make_particles(s, {100}, 1.0, 0, {edmd::Start::Kind::growth, 1.0, 1});
+        (void)edmd::make_particles(s, {100}, 1.0, 0, {edmd::Start::Kind::growth, 1.0, 1, widest()});
         FAIL() << "it does not fit";
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), Exit::invalid_input);

@@ -73,6 +73,7 @@ template <int dimension> GasFlight fly_gas(const GasFlightView& view) {
         }
         double square = velocity[0] * velocity[0];
         for (int d = 1; d < dimension; ++d) square += velocity[d] * velocity[d];
+        if (view.mass != nullptr) square *= view.mass[kind_of(velocity)];
         squares[i % 8] += square;
         for (const bool second : {false, true})
             if (view.durations[second ? 1 : 0] > 0) fly_to_walls(view, place, velocity, spin, second, result);

@@ -61,10 +61,13 @@ Vector<double> direction(const GasCollisionView& view, std::uint32_t k, std::uin
 }
 
 // Of a mixture.
-inline std::size_t kind_of(const GasCollisionView& view, std::int32_t i) {
+inline std::size_t kind_of(const double* velocity) {
     std::uint64_t word = 0;
-    std::memcpy(&word, view.rows.velocity + std::ptrdiff_t{i} * gas_row + 3, sizeof word);
+    std::memcpy(&word, velocity + 3, sizeof word);
     return static_cast<std::size_t>(word >> 60);
+}
+inline std::size_t kind_of(const GasCollisionView& view, std::int32_t i) {
+    return kind_of(view.rows.velocity + std::ptrdiff_t{i} * gas_row);
 }
 inline std::size_t kinds_of(const GasCollisionView& view, std::int32_t i, std::int32_t j) {
     return most_kinds * kind_of(view, i) + kind_of(view, j);
