@@ -15,7 +15,7 @@ if [ "$(cat "$known" 2>/dev/null)" = "$mark" ]; then
     echo "unchanged since it passed: $1"
     exit
 fi
-OMP_NUM_THREADS=1 "$1" -max_total_time=6 -timeout=10 -print_final_stats=1 \
+OMP_NUM_THREADS=1 "$1" -max_total_time=4 -timeout=10 -print_final_stats=1 \
     -artifact_prefix="build/fuzz/crashes/$name-" "${arguments[@]}"
 mkdir -p "$(dirname "$known")"
 echo "$mark" >"$known"

@@ -264,6 +264,7 @@ void GasFlow::restore(const std::string& state) {
         if (p.size() != expected) fail(Exit::io, "the state is one of another lattice");
     }
     load(r);
+    if (at < 0 || !r.at_end()) fail(Exit::io, "damaged state");
     lattice_ = std::move(read);
     stepper_.visit_all();
     step_ = at;

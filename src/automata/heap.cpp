@@ -198,7 +198,11 @@ public:
             if (table.heights().size() != expected) fail(Exit::io, "the state is one of another heap");
             const auto lost = r.get<std::int64_t>(), released = r.get<std::int64_t>();
             table.set_counts(lost, released);
+            // A grain raises a column by one.
+            for (const std::int32_t h : table.heights())
+                if (h < 0 || h > step) fail(Exit::io, "damaged state");
         }
+        if (!r.at_end()) fail(Exit::io, "damaged state");
         tables_ = std::move(read);
         step_ = step;
     }

@@ -149,6 +149,7 @@ public:
         for (Column<std::uint64_t>& plane : read.lattice.plane) get(plane);
         get(read.beyond);
         statistics_.load(r);
+        if (step < 0 || !r.at_end()) fail(Exit::io, "damaged state");
         for (std::int32_t y = 0; y < rows(); ++y)
             for (std::int32_t x = 0; x < columns(); ++x) read.set_resting(x, y, read.resting(x, y));
         pipe_ = std::move(read);

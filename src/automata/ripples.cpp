@@ -161,6 +161,9 @@ RippleModel::RippleModel(const scene::Scene& scene, const Means& means)
 void RippleModel::run(std::int64_t steps) {
     for (std::int64_t n = 0; n < steps; ++n) {
         const auto t = static_cast<std::uint32_t>(step_);
+        // As for fixed numbers; no number at all is caught, too.
+        if (!std::all_of(floating_.begin(), floating_.end(), [](double h) { return std::abs(h) <= highest; }))
+            fail_high();
         clamped_ += fixed_.empty() ? reference::step(floating_, columns_, rows_, rules_, t)
                                    : stepper_.step(fixed_, t);
         ++step_;
@@ -211,6 +214,7 @@ void RippleModel::restore(const std::string& state) {
         }
         fixed_ = std::move(read);
     }
+    if (step < 0 || !r.at_end()) fail(Exit::io, "damaged state");
     step_ = step;
     clamped_ = clamped;
 }

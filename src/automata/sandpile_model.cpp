@@ -167,6 +167,7 @@ void SandpileModel::restore(const std::string& state) {
     }
     for (LogBins& bins : statistics_) bins.load(r);
     if (pile_.start == scene::PileStart::doubled) restore_search(r);
+    if (step < 0 || !r.at_end()) fail(Exit::io, "damaged state");
     read.other = read.heights;
     lattice_ = std::move(read);
     sweeper_.visit_all();

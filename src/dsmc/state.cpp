@@ -143,6 +143,22 @@ std::string Simulation::serialise() const {
     return std::move(out).bytes();
 }
 
+namespace {
+
+// What the first step relies on: numbers, and kinds that there are.
+bool suits(const Setup& setup, const double* place, const double* velocity, const double* spin) {
+    std::uint64_t images = 0;
+    std::memcpy(&images, velocity + 3, sizeof images);
+    if ((images >> 60) >= setup.kinds()) return false;
+    for (int d = 0; d < 3; ++d)
+        if (!std::isfinite(place[d]) || !std::isfinite(velocity[d]) ||
+            (spin != nullptr && !std::isfinite(spin[d])))
+            return false;
+    return true;
+}
+
+} // namespace
+
 void Simulation::restore(const std::string& bytes) {
     ByteReader in(bytes);
     const auto belongs = [&](bool condition) {
@@ -173,6 +189,11 @@ void Simulation::restore(const std::string& bytes) {
         total += count;
     }
     belongs(total == size_ && in.at_end());
+    belongs(step_ >= 0 && std::isfinite(time_) && dt_ > 0 && std::isfinite(dt_) && next_dt_ > 0 &&
+            std::isfinite(next_dt_));
+    for_rows([&](const double* place, const double* velocity, const double* spin) {
+        belongs(suits(setup_, place, velocity, spin));
+    });
     find_maxwell_rate();
 }
 

@@ -83,6 +83,19 @@ void Algorithm::get_course(ByteReader& in) {
     epoch_end_ = in.get<double>();
     kicks_ = in.get<std::int64_t>();
     setup_.scale = in.get<double>();
+    const bool makes_sense = std::isfinite(clock_.epoch) && std::isfinite(clock_.carry) && clock_.now >= 0 &&
+                             std::isfinite(clock_.now) && epoch_end_ >= 0 && epoch_events_ >= 0 &&
+                             epoch_events_ <= events_of_epoch(size()) && kicks_ >= 0 && setup_.scale > 0 &&
+                             std::isfinite(setup_.scale);
+    if (!makes_sense || !in.at_end()) fail(Exit::io, "damaged state");
+}
+
+bool Algorithm::suits(const RawState& s) const {
+    for (std::size_t d = 0; d < 3; ++d)
+        if (!std::isfinite(s.place[d]) || !std::isfinite(s.velocity[d]) || !std::isfinite(s.spin[d]))
+            return false;
+    return std::isfinite(s.time) && s.time <= clock_.now && s.last_time <= clock_.now &&
+           s.kind < setup_.classes.size();
 }
 
 void Algorithm::check_course(const Drift& drift) {

@@ -69,6 +69,8 @@ protected:
     // Clock, sums and log of a checkpoint.
     void put_course(ByteWriter& out) const;
     void get_course(ByteReader& in);
+    // Of what was read: numbers, at a time that has been, of a class that there is.
+    [[nodiscard]] bool suits(const RawState& s) const;
     // At the start of an epoch: throws Error(unstable) if the run makes no sense any more.
     void check_course(const Drift& drift);
 

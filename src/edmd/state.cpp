@@ -131,6 +131,8 @@ void Simulation::restore(const std::string& bytes) {
     }
     work_ = work[0];
     get_course(in);
+    for (const RawState& s : raw_states())
+        if (!suits(s)) fail(Exit::io, "damaged state");
     now_ = clock_.now;
     sort_by_cell();
     dispatch_predict_all();

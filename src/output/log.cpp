@@ -92,8 +92,11 @@ std::string LogWriter::bookmark() {
 }
 
 Log read_log(const std::filesystem::path& path) {
-    const std::string content = read_file(path);
-    std::string_view rest = content;
+    return parse_log(read_file(path), path);
+}
+
+Log parse_log(std::string_view text, const std::filesystem::path& path) {
+    std::string_view rest = text;
     Log log;
     for (std::size_t number = 1; !rest.empty(); ++number) {
         const std::size_t end = rest.find('\n');

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sandlane::output {
@@ -32,5 +33,6 @@ private:
 
 // Throws Error(invalid_input) with "path:line: ..." for anything but a complete table.
 [[nodiscard]] analysis::Log read_log(const std::filesystem::path& path);
+[[nodiscard]] analysis::Log parse_log(std::string_view text, const std::filesystem::path& path);
 
 } // namespace sandlane::output

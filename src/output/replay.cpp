@@ -171,7 +171,10 @@ void ReplayWriter::format(const Snapshot& snapshot, std::string& bytes) {
 }
 
 std::vector<ReplayFrame> read_replay(const std::filesystem::path& path) {
-    const std::string bytes = read_file(path);
+    return parse_replay(read_file(path), path);
+}
+
+std::vector<ReplayFrame> parse_replay(std::string_view bytes, const std::filesystem::path& path) {
     ByteReader reader(bytes);
     std::vector<ReplayFrame> frames;
     try {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sandlane::output {
@@ -51,6 +52,8 @@ protected:
     void format(const analysis::Snapshot& snapshot, std::string& bytes) override;
 };
 [[nodiscard]] std::vector<ReplayFrame> read_replay(const std::filesystem::path& path);
+[[nodiscard]] std::vector<ReplayFrame> parse_replay(std::string_view bytes,
+                                                    const std::filesystem::path& path);
 
 // Frames for the page: only what changed since the frame before, deflated.
 struct PackedReplay {

@@ -71,7 +71,7 @@ template <class T> Table<T>& Table<T>::text(std::string name, std::string T::*me
     return custom(
         {std::move(name), "text", "", "", std::move(doc), false,
          [=](T& t, const Value& v, const std::string& path, std::int64_t) { t.*member = read_text(v, path); },
-         [=](const T& t, std::int64_t) { return quoted(t.*member); }});
+         [=](const T& t, std::int64_t) { return scene::quoted(t.*member); }});
 }
 template <class T> Table<T>& Table<T>::vector(std::string name, Vec T::*member, Unit unit, std::string doc) {
     return custom({std::move(name), std::string(vector_form(2)), std::string(unit_symbol(unit)), "",
@@ -117,7 +117,7 @@ Table<T>& Table<T>::choice(std::string name, E T::*member, const Choices& choice
          [=](T& t, const Value& v, const std::string& path, std::int64_t) {
              t.*member = static_cast<E>(read_choice(v, path, choices));
          },
-         [=](const T& t, std::int64_t) { return quoted(choices[static_cast<std::size_t>(t.*member)]); }});
+         [=](const T& t, std::int64_t) { return scene::quoted(choices[static_cast<std::size_t>(t.*member)]); }});
 }
 template <class T>
 template <class E>
@@ -138,7 +138,7 @@ Table<T>& Table<T>::choices(std::string name, std::vector<E> T::*member, const C
                    [=](const T& t, std::int64_t) {
                        std::vector<std::string> items;
                        for (const E e : t.*member)
-                           items.push_back(quoted(choices[static_cast<std::size_t>(e)]));
+                           items.push_back(scene::quoted(choices[static_cast<std::size_t>(e)]));
                        return joined(items);
                    }});
 }

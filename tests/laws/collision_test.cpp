@@ -157,3 +157,11 @@ TEST(Collision, ContactCorrelation) {
     EXPECT_NEAR(laws::contact_correlation(3, 0.2), 1.7578125, 1e-12);
     EXPECT_NEAR(laws::contact_correlation(2, 0.3), 1.7729592, 1e-7);
 }
+
+// In a mixture of equals S_ij h = phi/2/(1 - phi), and every pair is one of the fluid of one kind.
+TEST(Collision, ContactCorrelationOfAMixtureOfEquals) {
+    for (const int dimension : {2, 3})
+        for (const double phi : {0.0, 0.1, 0.3, 0.45})
+            EXPECT_NEAR(laws::contact_of_pair(dimension, 0.5 * phi / (1 - phi)) / (1 - phi),
+                        laws::contact_correlation(dimension, phi), 1e-14);
+}

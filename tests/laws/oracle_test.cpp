@@ -125,3 +125,17 @@ TEST(CundallStrack, SpringAndClamp) {
     EXPECT_EQ(force(0, 0.3), 0.0);
     EXPECT_EQ(zeta[0], 0.0);
 }
+
+// What begins has no spring yet, however long the step was; what lasts has moved all that time.
+TEST(PairForce, ContactsBeginWithoutASpring) {
+    const laws::PairState<double> s{1.9, 0, 0, 0.2, 0, 2, 2};
+    laws::PairCoefficients<double> c{1000, 0, 0, 10};
+    c.tangential_stiffness = 50;
+    double memory[2] = {laws::no_contact, 0};
+    const auto force = [&](double elapsed) {
+        return laws::pair_force<laws::LinearDashpot, laws::CundallStrack>(s, c, memory, elapsed).tangential;
+    };
+    EXPECT_EQ(force(0.1), 0);
+    EXPECT_EQ(memory[0], 0);
+    EXPECT_NEAR(force(0.1), 50 * 0.1 * 0.2, 1e-14);
+}

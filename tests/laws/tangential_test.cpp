@@ -172,3 +172,84 @@ TEST(CundallStrack, HoldsTheEnergyOfItsSpring) {
     EXPECT_NEAR(laws::CundallStrack::energy(2, 0.5, zeta), 0.09, 1e-16);
     EXPECT_NEAR(laws::CundallStrack::energy_in_space(2, 0.5, zeta), 1.69, 1e-15);
 }
+
+namespace {
+
+// A contact with a spring and a damper that lasts, in space: k_t 100, gamma_t 0.3, mu 0.5.
+struct SpatialContact {
+    double zeta[3] = {0, 0, 0};
+    Vector<double> normal{0, 0, 1};
+    double twist = 0;
+
+    Vector<double> force(double load, const Vector<double>& velocity, double elapsed) {
+        return laws::CundallStrack::force(
+            laws::SpatialInput<double>{load, velocity, normal, twist, 0.3, 0.5, 100, elapsed}, zeta);
+    }
+    [[nodiscard]] double length() const { return std::hypot(zeta[0], zeta[1], zeta[2]); }
+};
+
+constexpr double ulp = std::numeric_limits<double>::epsilon();
+
+} // namespace
+
+// While it slides spring and damper together give just the force; without load nothing is left.
+TEST(CundallStrack, SlidesWithItsDamper) {
+    double zeta[1] = {0};
+    const auto force = [&](double load, double rate) {
+        return laws::CundallStrack::force(laws::TangentialInput<double>{load, rate, 0.3, 0.5, 100, 0.01},
+                                          zeta);
+    };
+    for (const double rate : {0.4, -0.4}) {
+        for (int n = 0; n < 20; ++n) (void)force(1, rate);
+        const double f = force(1, rate);
+        EXPECT_DOUBLE_EQ(f, rate > 0 ? -0.5 : 0.5);
+        EXPECT_NEAR(100 * zeta[0] + 0.3 * rate, -f, 4 * ulp);
+    }
+    (void)force(0, 0.4);
+    EXPECT_EQ(zeta[0], 0);
+}
+
+// Along each axis of space it is the law of the plane, sticking, sliding and let go.
+TEST(CundallStrack, InSpaceAlongALine) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto along = [&](int a) { return a == axis ? 1.0 : 0.0; };
+        SpatialContact contact;
+        contact.normal = {along(2), along(0), along(1)};
+        double zeta[1] = {0};
+        for (int n = 0; n < 200; ++n) {
+            const double rate = std::sin(0.1 * n), load = n == 150 ? 0.0 : 1 + 0.5 * std::cos(0.3 * n);
+            const double plane = laws::CundallStrack::force(
+                laws::TangentialInput<double>{load, rate, 0.3, 0.5, 100, 0.01}, zeta);
+            const auto f = contact.force(load, {rate * along(0), rate * along(1), rate * along(2)}, 0.01);
+            // Of a spring that is as long as the limit allows, and rounded at each step.
+            EXPECT_NEAR(f.x * along(0) + f.y * along(1) + f.z * along(2), plane, 1e-13);
+            EXPECT_NEAR(contact.zeta[axis], zeta[0], 1e-15);
+            EXPECT_EQ(contact.zeta[(axis + 1) % 3], 0);
+        }
+    }
+}
+
+// Grains that both spin about the normal take the spring along, without a change of its length.
+TEST(CundallStrack, InSpaceTurnsWithTheTwist) {
+    SpatialContact contact;
+    (void)contact.force(1, {0.1, 0, 0}, 0.01);
+    const double before = contact.length();
+    contact.twist = 2;
+    for (int n = 0; n < 100; ++n) (void)contact.force(1, {0, 0, 0}, 0.001);
+    EXPECT_NEAR(std::atan2(contact.zeta[1], contact.zeta[0]), 0.2, 1e-6); // each step by the tangent of 0.002
+    EXPECT_NEAR(contact.length(), before, 1e-14 * before);
+}
+
+// A contact that rolls around the grain takes the spring into its plane, at its old length: by the series for
+// small turns, where e is up to 1e-5, and by roots beyond.
+TEST(CundallStrack, InSpaceKeepsItsLengthWhereTheNormalTurns) {
+    for (const double angle : {1e-4, 3e-3, 0.3}) {
+        SpatialContact contact;
+        (void)contact.force(1, {0.1, 0.05, 0}, 0.01);
+        const double before = contact.length();
+        contact.normal = {std::sin(angle), 0, std::cos(angle)};
+        (void)contact.force(1, {0, 0, 0}, 0.01);
+        EXPECT_NEAR(contact.length(), before, 4 * ulp * before) << angle;
+        EXPECT_NEAR(contact.zeta[0] * contact.normal.x + contact.zeta[2] * contact.normal.z, 0, ulp * before);
+    }
+}

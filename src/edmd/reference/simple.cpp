@@ -295,6 +295,8 @@ void SimpleAlgorithm::restore(const std::string& bytes) {
             s.hits};
     }
     get_course(in);
+    for (const RawState& s : states)
+        if (!suits(s)) fail(Exit::io, "damaged state");
     for (std::size_t i = 0; i < states_.size(); ++i) predict(i);
 }
 
