@@ -5,7 +5,9 @@
 #include "app/md_difference.hpp"
 #include "app/md_log.hpp"
 #include "app/md_recorder.hpp"
+#include "app/md_watch.hpp"
 #include "core/error.hpp"
+#include "md/accuracy.hpp"
 #include "output/picture.hpp"
 #include "scene/schema.hpp"
 
@@ -77,7 +79,29 @@ std::vector<double> MdEngine::log_row() {
             "t = {:.4g} s: largest overlap {:.3g} R_min is above 0.05; the material is soft for this load",
             time(), o.largest_overlap));
     }
-    return app::log_row(simulation_, o);
+    watched_ = simulation_.watch(o);
+    for (std::size_t n = 0; n < md::watched::count; ++n) {
+        const WatchedQuantity& q = watched_quantities()[n];
+        const double warn = q.limit(scene().watch).warn;
+        if (watch_warned_[n] || !(warn > 0 && watched_.value[n] > warn)) continue;
+        watch_warned_[n] = true;
+        warnings_.push_back(exceeded(n, warn));
+    }
+    return app::log_row(simulation_, o, watched_);
+}
+
+std::string MdEngine::exceeded(std::size_t quantity, double limit) const {
+    const WatchedQuantity& q = watched_quantities()[quantity];
+    return fmt::format("step {}, t = {:.6g} s: {} is {:.3g}, above {:.3g} of watch.{}; {}. {}", step(),
+                       time(), q.what, watched_.value[quantity], limit, q.key, watched_.where[quantity],
+                       q.advice);
+}
+
+void MdEngine::judge() {
+    for (std::size_t n = 0; n < md::watched::count; ++n) {
+        const double stop = watched_quantities()[n].limit(scene().watch).stop;
+        if (stop > 0 && !(watched_.value[n] <= stop)) fail(Exit::unstable, "{}", exceeded(n, stop));
+    }
 }
 
 std::vector<std::string> MdEngine::news() {
@@ -117,14 +141,22 @@ std::string MdEngine::plan_json() const {
 }
 
 std::string MdEngine::summary_json() const {
-    return fmt::format(R"("removed": {}, )", simulation_.removed());
+    return fmt::format(R"("removed": {}, )", simulation_.removed()) + watch_json(simulation_);
 }
 
 std::vector<std::pair<std::string, std::string>> MdEngine::report_rows() const {
-    return {{"Grains", std::to_string(size())},
-            {"Simulated time", fmt::format("{:.4g} s", time())},
-            {stride() > 1 ? "Shortest units of the time step" : "Steps", std::to_string(step())},
-            {"Time step", fmt::format("{:.4g} s", simulation_.plan().dt)}};
+    std::vector<std::pair<std::string, std::string>> rows = {
+        {"Grains", std::to_string(size())},
+        {"Simulated time", fmt::format("{:.4g} s", time())},
+        {stride() > 1 ? "Shortest units of the time step" : "Steps", std::to_string(step())},
+        {"Time step", fmt::format("{:.4g} s", simulation_.plan().dt)}};
+    for (std::size_t n = 0; n < md::watched::count; ++n) {
+        const WatchedQuantity& q = watched_quantities()[n];
+        if (!q.limit(scene().watch).asked) continue;
+        const md::Balance& b = simulation_.balance();
+        rows.emplace_back(q.title, fmt::format("{:.3g} at {:.4g} s", b.peak[n], b.peak_time[n]));
+    }
+    return rows;
 }
 
 namespace {
@@ -133,8 +165,16 @@ class MdSetup final : public Setup {
 public:
     MdSetup(scene::Scene scene, const Machine& machine)
         : scene_(std::move(scene)), grains_(scene::initial_grains(scene_)),
-          needs_(md::analyse(scene_, grains_)), derived_(md::derive(scene_, needs_)),
-          plan_(md::make_plan(scene_, needs_, derived_, machine.isa, machine.threads)) {}
+          needs_(md::analyse(scene_, grains_)) {
+        scene::Scene resolved = scene_;
+        if (scene_.md.accuracy > 0) {
+            accuracy_ = md::choose_by_accuracy(scene_, needs_);
+            resolved = md::with_choice(scene_, accuracy_);
+        }
+        derived_ = md::derive(resolved, needs_);
+        plan_ = md::make_plan(resolved, needs_, derived_, machine.isa, machine.threads);
+        plan_.chosen.insert(plan_.chosen.end(), accuracy_.reasons.begin(), accuracy_.reasons.end());
+    }
 
     [[nodiscard]] double memory_bytes() const override { return md::memory_bytes(needs_, plan_); }
     [[nodiscard]] std::string description() const override {
@@ -143,11 +183,12 @@ public:
     [[nodiscard]] std::string json() const override {
         return fmt::format(
             R"({{"grains": {}, "poured": {}, "dt": {}, "steps": {}, "collision_time": {}, "critical_dt": {}, )"
-            R"("restitution": [{}, {}], "memory_bytes": {}, "isa": "{}", "threads": {}}})",
+            R"("restitution": [{}, {}], "memory_bytes": {}, "isa": "{}", "order": {}, "accuracy": {}, )"
+            R"("threads": {}}})",
             needs_.grains, needs_.poured, json_number(plan_.dt), plan_.steps,
             json_number(derived_.collision_time), json_number(derived_.critical_dt),
             json_number(derived_.restitution_min), json_number(derived_.restitution_max), memory_bytes(),
-            simd::isa_name(plan_.isa), plan_.threads);
+            simd::isa_name(plan_.isa), plan_.order, accuracy_json(), plan_.threads);
     }
     [[nodiscard]] std::unique_ptr<Engine> start() override { return start(plan_.isa); }
     [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) override {
@@ -161,9 +202,23 @@ public:
     }
 
 private:
+    // Of md.accuracy; null without.
+    [[nodiscard]] std::string accuracy_json() const {
+        const md::AccuracyChoice& choice = accuracy_;
+        std::string costs;
+        for (const md::Candidate& c : choice.all)
+            costs += fmt::format(R"({}"{}": {})", costs.empty() ? "" : ", ",
+                                 md::integrator_name(c.integrator), md::step_cost(scene_, c.integrator));
+        if (costs.empty()) return "null";
+        return fmt::format(R"({{"integrator": "{}", "error": {}, "cost_ns": {}, "step_ns": {{{}}}}})",
+                           md::integrator_name(choice.best.integrator), json_number(choice.best.error),
+                           json_number(choice.best.cost), costs);
+    }
+
     scene::Scene scene_;
     std::vector<scene::GrainState> grains_;
     md::Needs needs_;
+    md::AccuracyChoice accuracy_; // empty without md.accuracy
     md::Derived derived_;
     md::Plan plan_;
 };

@@ -45,6 +45,7 @@ public:
 
     [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override;
     [[nodiscard]] std::vector<double> log_row() override;
+    void judge() override;
     [[nodiscard]] std::vector<std::string> news() override;
     [[nodiscard]] std::unique_ptr<Recorder> recorder(const std::filesystem::path& folder,
                                                      const output::Checkpoint* resume) override;
@@ -54,10 +55,14 @@ public:
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> report_rows() const override;
 
 private:
+    [[nodiscard]] std::string exceeded(std::size_t quantity, double limit) const;
+
     md::Simulation simulation_;
     Hash128 grains_;
     std::vector<std::string> warnings_; // not told yet
     bool overlap_warned_ = false;
+    md::Watched watched_; // at the last row of the log
+    bool watch_warned_[md::watched::count] = {};
     std::size_t events_seen_ = 0;
 };
 

@@ -11,6 +11,7 @@ namespace sandlane::app {
 // Four columns per wall come last: force, torque and power, named after the wall or its number.
 [[nodiscard]] std::vector<analysis::LogColumn> log_columns(const scene::Scene& scene);
 // One number per column.
-[[nodiscard]] std::vector<double> log_row(const md::Simulation& simulation, const md::Observables& observed);
+[[nodiscard]] std::vector<double> log_row(const md::Simulation& simulation, const md::Observables& observed,
+                                          const md::Watched& watched);
 
 } // namespace sandlane::app
