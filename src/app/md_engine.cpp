@@ -5,7 +5,6 @@
 #include "app/md_difference.hpp"
 #include "app/md_log.hpp"
 #include "app/md_recorder.hpp"
-#include "app/md_watch.hpp"
 #include "core/error.hpp"
 #include "md/accuracy.hpp"
 #include "output/picture.hpp"
@@ -42,6 +41,7 @@ const md::Simulation& simulation_of(const Engine& engine) {
 void MdEngine::serialise(ByteWriter& out) const {
     out.put(grains_.high);
     out.put(grains_.low);
+    watcher_.serialise(out);
     simulation_.serialise(out);
 }
 
@@ -52,7 +52,8 @@ void MdEngine::restore(const std::string& state, const std::string& origin) {
         if (Hash128{high, low} != grains_)
             fail(Exit::io,
                  "its grains are not those that its scene describes now; a file of grains has changed");
-        simulation_.restore(std::string_view(state).substr(2 * sizeof(std::uint64_t)));
+        watcher_.restore(in);
+        simulation_.restore(in.rest());
     } catch (const Error& e) {
         fail(e.code(), "{}: {}. Overrides by --set must keep grains, domain, walls, laws and time step.",
              origin, e.what());
@@ -68,7 +69,7 @@ std::vector<Difference> MdEngine::compare_kernels(simd::Isa first, simd::Isa sec
 }
 
 std::vector<analysis::LogColumn> MdEngine::log_columns() const {
-    return app::log_columns(scene());
+    return app::log_columns(scene(), watcher_);
 }
 
 std::vector<double> MdEngine::log_row() {
@@ -79,34 +80,13 @@ std::vector<double> MdEngine::log_row() {
             "t = {:.4g} s: largest overlap {:.3g} R_min is above 0.05; the material is soft for this load",
             time(), o.largest_overlap));
     }
-    watched_ = simulation_.watch(o);
-    for (std::size_t n = 0; n < md::watched::count; ++n) {
-        const WatchedQuantity& q = watched_quantities()[n];
-        const double warn = q.limit(scene().watch).warn;
-        if (watch_warned_[n] || !(warn > 0 && watched_.value[n] > warn)) continue;
-        watch_warned_[n] = true;
-        warnings_.push_back(exceeded(n, warn));
-    }
-    return app::log_row(simulation_, o, watched_);
-}
-
-std::string MdEngine::exceeded(std::size_t quantity, double limit) const {
-    const WatchedQuantity& q = watched_quantities()[quantity];
-    return fmt::format("step {}, t = {:.6g} s: {} is {:.3g}, above {:.3g} of watch.{}; {}. {}", step(),
-                       time(), q.what, watched_.value[quantity], limit, q.key, watched_.where[quantity],
-                       q.advice);
-}
-
-void MdEngine::judge() {
-    for (std::size_t n = 0; n < md::watched::count; ++n) {
-        const double stop = watched_quantities()[n].limit(scene().watch).stop;
-        if (stop > 0 && !(watched_.value[n] <= stop)) fail(Exit::unstable, "{}", exceeded(n, stop));
-    }
+    watcher_.see(simulation_.watch(o), step(), time());
+    return app::log_row(simulation_, o, watcher_);
 }
 
 std::vector<std::string> MdEngine::news() {
-    std::vector<std::string> news = std::move(warnings_);
-    warnings_.clear();
+    std::vector<std::string> news = std::exchange(warnings_, {});
+    for (std::string& warning : watcher_.take_news()) news.push_back(std::move(warning));
     const std::vector<std::string>& events = simulation_.events();
     for (; events_seen_ < events.size(); ++events_seen_) news.push_back(events[events_seen_]);
     return news;
@@ -141,7 +121,7 @@ std::string MdEngine::plan_json() const {
 }
 
 std::string MdEngine::summary_json() const {
-    return fmt::format(R"("removed": {}, )", simulation_.removed()) + watch_json(simulation_);
+    return fmt::format(R"("removed": {}, )", simulation_.removed()) + watcher_.json();
 }
 
 std::vector<std::pair<std::string, std::string>> MdEngine::report_rows() const {
@@ -150,12 +130,7 @@ std::vector<std::pair<std::string, std::string>> MdEngine::report_rows() const {
         {"Simulated time", fmt::format("{:.4g} s", time())},
         {stride() > 1 ? "Shortest units of the time step" : "Steps", std::to_string(step())},
         {"Time step", fmt::format("{:.4g} s", simulation_.plan().dt)}};
-    for (std::size_t n = 0; n < md::watched::count; ++n) {
-        const WatchedQuantity& q = watched_quantities()[n];
-        if (!q.limit(scene().watch).asked) continue;
-        const md::Balance& b = simulation_.balance();
-        rows.emplace_back(q.title, fmt::format("{:.3g} at {:.4g} s", b.peak[n], b.peak_time[n]));
-    }
+    watcher_.add_report_rows(rows);
     return rows;
 }
 

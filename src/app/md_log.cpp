@@ -1,7 +1,5 @@
 #include "app/md_log.hpp"
 
-#include "app/md_watch.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -89,10 +87,10 @@ void for_entries(const Entries& table, const scene::Scene& scene, const Body& bo
 
 } // namespace
 
-std::vector<analysis::LogColumn> log_columns(const scene::Scene& scene) {
+std::vector<analysis::LogColumn> log_columns(const scene::Scene& scene, const Watcher& watcher) {
     std::vector<analysis::LogColumn> columns;
     for_entries(entries, scene, [&](const Entry& e) { columns.push_back({e.name, e.unit}); });
-    for_watched(scene, [&](std::size_t n) { columns.push_back({watched_quantities()[n].column, "1"}); });
+    watcher.add_columns(columns);
     for (std::size_t wall = 0; wall < scene.walls.size(); ++wall)
         for_entries(wall_entries, scene, [&](const WallEntry& e) {
             columns.push_back({fmt::format("{}_{}", wall_name(scene, wall), e.name), e.unit});
@@ -101,11 +99,11 @@ std::vector<analysis::LogColumn> log_columns(const scene::Scene& scene) {
 }
 
 std::vector<double> log_row(const md::Simulation& simulation, const md::Observables& observed,
-                            const md::Watched& watched) {
+                            const Watcher& watcher) {
     const scene::Scene& scene = simulation.scene();
     std::vector<double> row;
     for_entries(entries, scene, [&](const Entry& e) { row.push_back(e.value(simulation, observed)); });
-    for_watched(scene, [&](std::size_t n) { row.push_back(watched.value[n]); });
+    watcher.add_row(row);
     for (const md::WallLoad& load : observed.walls)
         for_entries(wall_entries, scene, [&](const WallEntry& e) { row.push_back(e.value(load)); });
     return row;

@@ -4,10 +4,7 @@
 
 #include "core/vec.hpp"
 
-#include <cstdint>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace sandlane::md {
 
@@ -16,11 +13,6 @@ struct TileSums {
     double power = 0;
     Vec between, all;
 };
-
-// The errors that are watched.
-namespace watched {
-enum : std::size_t { overlap, energy, momentum, step, count };
-} // namespace watched
 
 // Sums since the balance began. Doubles only: it goes into checkpoints as it is.
 struct Balance {
@@ -35,13 +27,7 @@ struct Balance {
     double exchanged = 0;                      // kg m/s: sum of the sizes of both impulses
     double most_energy = 0, most_momentum = 0; // scales: the largest that was seen
     double examined = std::numeric_limits<double>::infinity(); // m: no overlap up to it is looked at again
-    double peak[watched::count] = {}, peak_time[watched::count] = {}; // the largest errors, and when [s]
-};
-
-// One look at a run. `where`: grain and partner, or the like, for messages.
-struct Watched {
-    double value[watched::count] = {};
-    std::string where[watched::count];
+    double deepest = 0, deepest_time = 0; // largest overlap so far, of the smaller radius, and when [s]
 };
 
 } // namespace sandlane::md

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/snapshot.hpp"
+#include "analysis/watched.hpp"
 #include "core/bytes.hpp"
 #include "core/hash.hpp"
 #include "md/balance.hpp"
@@ -74,7 +75,7 @@ public:
 
     // Errors of the run so far, of those that the scene watches; `now` are the observables of the present
     // state.
-    [[nodiscard]] Watched watch(const Observables& now);
+    [[nodiscard]] analysis::Watched watch(const Observables& now);
     [[nodiscard]] const Balance& balance() const { return balance_; }
 
     // Tiles of grains at rest that the next step goes over, as things stand; see md.freeze.
@@ -151,7 +152,7 @@ private:
     [[nodiscard]] double balanced_energy(const Observables& now) const;
     [[nodiscard]] double energy_residual(const Observables& now) const;
     [[nodiscard]] double momentum_error(const Observables& now) const;
-    void add_step_error(Watched& w) const;
+    void add_step_error(analysis::Watched& w) const;
     [[nodiscard]] simd::MotionView motion_view(std::int64_t predicted);
     [[nodiscard]] scene::GrainState with_shear_flow(scene::GrainState grain) const;
     [[nodiscard]] double seam(double time) const;

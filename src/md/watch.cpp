@@ -9,6 +9,8 @@
 
 namespace sandlane::md {
 
+namespace watched = analysis::watched;
+
 std::string Simulation::text_of(Vec p) const {
     return plan_.dimension == 2 ? fmt::format("({:.6g}, {:.6g})", p.x, p.y)
                                 : fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
@@ -23,9 +25,9 @@ std::string Simulation::text_of(const Place& c) const {
 }
 
 void Simulation::note_overlap(double ratio, const Place& where, double at) {
-    if (ratio <= balance_.peak[watched::overlap]) return;
-    balance_.peak[watched::overlap] = ratio;
-    balance_.peak_time[watched::overlap] = at;
+    if (ratio <= balance_.deepest) return;
+    balance_.deepest = ratio;
+    balance_.deepest_time = at;
     deepest_ = where;
     const double stop = scene_.watch.overlap.stop;
     if (stop > 0 && ratio > stop)
@@ -48,14 +50,14 @@ void Simulation::see_overlap(double overlap) {
 }
 
 void Simulation::see_wall(const WallResult& worst) {
-    if (worst.largest_ratio <= balance_.peak[watched::overlap]) return;
+    if (worst.largest_ratio <= balance_.deepest) return;
     const auto grain = static_cast<std::size_t>(worst.grain);
     note_overlap(worst.largest_ratio, {state_.id[grain], -1 - worst.wall, state_.position(grain)},
                  force_time());
 }
 
 // Each contact of the sample as a binary collision, with dt and with dt/2 from the same gap.
-void Simulation::add_step_error(Watched& w) const {
+void Simulation::add_step_error(analysis::Watched& w) const {
     Walls now = walls_;
     now.move_to(time());
     const ContactMemory pairs = lists_.memory(state_), of_walls = walls_.memory(state_);
@@ -81,8 +83,8 @@ void Simulation::add_step_error(Watched& w) const {
         fmt::format("the largest, {:.3g}, is that of {}", largest, text_of(worst->place));
 }
 
-Watched Simulation::watch(const Observables& now) {
-    Watched w;
+analysis::Watched Simulation::watch(const Observables& now) {
+    analysis::Watched w;
     if (balance_.kind == 0) return w;
     const scene::Watch& asked = scene_.watch;
     double momentum = 0;
@@ -95,7 +97,7 @@ Watched Simulation::watch(const Observables& now) {
     balance_.most_energy = std::max(balance_.most_energy, now.kinetic + now.rotational + now.elastic);
     if (asked.overlap.asked) {
         note_overlap(now.largest_overlap, now.deepest, time());
-        w.value[watched::overlap] = balance_.peak[watched::overlap];
+        w.value[watched::overlap] = balance_.deepest;
         w.where[watched::overlap] = text_of(deepest_);
     }
     if (asked.energy.asked) w.value[watched::energy] = energy_residual(now);
@@ -105,11 +107,8 @@ Watched Simulation::watch(const Observables& now) {
         if (state_.size() > 0)
             w.where[n] = fmt::format("the fastest grain is {} at {}", state_.id[fastest],
                                      text_of(state_.position(fastest)));
-    for (std::size_t n = 0; n < watched::count; ++n)
-        if (!(w.value[n] <= balance_.peak[n])) {
-            balance_.peak[n] = w.value[n];
-            balance_.peak_time[n] = time();
-        }
+    std::fill(std::begin(w.time), std::end(w.time), time());
+    w.time[watched::overlap] = balance_.deepest_time;
     return w;
 }
 

@@ -139,7 +139,7 @@ const Table<Scene>& scene_table(); // the keys outside any table
 void validate(const Scene& scene, const std::string& file);
 #define ENGINE(choice, name, what) void validate_##choice(const Scene& scene, const std::string& file);
 #include "scene/engines.def"
-// Of a scene of grains: md.accuracy, and [watch].
+// Of md.accuracy, and of [watch].
 void check_accuracy(const Scene& scene, const std::string& file);
 void check_watch(const Scene& scene, const std::string& file);
 

@@ -41,16 +41,22 @@ const Table<Watch>& watch_table() {
                      "measured with every row of log.csv and written there and into summary.json. Above the "
                      "first number there is a warning, above the second the run ends with exit code 6; 0: no "
                      "such limit.")
-            .custom(limit("largest_overlap", &Watch::overlap,
-                          "overlap of a contact over the smaller radius; also looked at between rows"))
-            .custom(limit("energy_residual", &Watch::energy,
-                          "kinetic and potential energy against the work of forces; without loss all energy"))
-            .custom(limit("momentum_error", &Watch::momentum,
-                          "net momentum against the impulses of gravity and walls; not with shear_rate"))
+            .custom(
+                limit("largest_overlap", &Watch::overlap,
+                      "overlap of a contact over the smaller radius; also looked at between rows. Not dsmc"))
+            .custom(limit(
+                "energy_residual", &Watch::energy,
+                "kinetic and potential energy against the work of forces; without loss all energy. Gases: only "
+                "without loss"))
+            .custom(
+                limit("momentum_error", &Watch::momentum,
+                      "net momentum against the impulses of gravity and walls; not with shear_rate. Gases: "
+                      "only where nothing changes it"))
             .custom(limit("step_error", &Watch::step,
                           "energy of a collision with this time step and with half of it, root mean square "
-                          "over a random sample of the contacts"))
-            .integer("sample", &Watch::sample, between(1, 100000), "contacts in the sample of step_error");
+                          "over a random sample of the contacts. md"))
+            .integer("sample", &Watch::sample, between(1, 100000),
+                     "md: contacts in the sample of step_error");
     return table;
 }
 

@@ -9,13 +9,13 @@ namespace sandlane::test {
 
 namespace {
 
-class Watched : public App {
+class WatchedRuns : public App {
 protected:
     // The box of glass with a table [watch].
     void watch(const std::string& limits) const { write("scene.toml", box_scene + "\n[watch]\n" + limits); }
 };
 
-TEST_F(Watched, AreLoggedAndSummedUp) {
+TEST_F(WatchedRuns, AreLoggedAndSummedUp) {
     watch("largest_overlap = [0, 0]\nenergy_residual = [0, 0]\nmomentum_error = [0, 0]\n"
           "step_error = [0, 0]\n");
     const Outcome o =
@@ -35,7 +35,7 @@ TEST_F(Watched, AreLoggedAndSummedUp) {
     EXPECT_EQ(read("plain/log.csv").find("residual"), std::string::npos);
 }
 
-TEST_F(Watched, WarnOnceAndStop) {
+TEST_F(WatchedRuns, WarnOnceAndStop) {
     watch("step_error = [1e-9, 0]\n");
     const Outcome warned = run_well({"run", "scene.toml", "--out", "warned"});
     const std::string first = "above 1e-09 of watch.step_error; the largest, ";
@@ -53,7 +53,7 @@ TEST_F(Watched, WarnOnceAndStop) {
     EXPECT_EQ(run({"run", "scene.toml", "--out", "overlap"}).code, code_of(Exit::unstable));
 }
 
-TEST_F(Watched, TheCheckSaysWhatWasChosenAndWhy) {
+TEST_F(WatchedRuns, TheCheckSaysWhatWasChosenAndWhy) {
     write("scene.toml", box_scene);
     const auto with = [](const char* command, std::vector<std::string> more) {
         std::vector<std::string> all = {command, "scene.toml", "--set", "md.accuracy=2e-3"};
@@ -73,6 +73,29 @@ TEST_F(Watched, TheCheckSaysWhatWasChosenAndWhy) {
     EXPECT_SAYS(read("out/scene.toml"), "accuracy = 0.002");
     EXPECT_EQ(json_of(run_well({"check", "out/scene.toml", "--json"}).out)["dt"], plan["dt"]);
     run_well({"run", "--resume", latest_checkpoint("out"), "--out", "more", "--steps", "10"});
+}
+
+// An elastic gas: what is kept, is kept to rounding.
+TEST_F(WatchedRuns, GasesKeepEnergyAndMomentum) {
+    const std::string gas = "[domain]\nupper = [20, 20]\nperiodic = [\"x\", \"y\"]\n[gas]\nparticles = 200\n"
+                            "temperature = 1\nmass = 1\ndiameter = 0.5\nrestitution = 1\n"
+                            "[watch]\nenergy_residual = [0, 1e-9]\nmomentum_error = [0, 1e-9]\n";
+    write("edmd.toml", "method = \"edmd\"\n" + gas + "largest_overlap = [0, 1e-9]\n[edmd]\nduration = 20\n");
+    write("dsmc.toml", "method = \"dsmc\"\n" + gas + "[dsmc]\nduration = 20\n");
+    for (const std::string method : {"edmd", "dsmc"}) {
+        const auto watch =
+            json_of(run_well({"run", method + ".toml", "--out", method, "--json"}).out)["watch"];
+        for (const char* key : {"energy_residual", "momentum_error"}) {
+            EXPECT_LT(watch[key]["largest"], 1e-10) << method << key;
+            EXPECT_GT(watch[key]["largest"], 0) << method << key;
+        }
+        EXPECT_SAYS(read(method + "/log.csv"), "energy_residual[1],momentum_error[1]");
+        const Outcome o =
+            run({"run", method + ".toml", "--out", "bad", "--set", "watch.energy_residual=[0, 1e-30]"});
+        EXPECT_EQ(o.code, code_of(Exit::unstable)) << method;
+        EXPECT_SAYS(run({"check", method + ".toml", "--set", "gas.restitution=0.9"}).err,
+                    "watch.energy_residual: is defined for gases in which");
+    }
 }
 
 struct Contradiction {
