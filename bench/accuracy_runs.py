@@ -42,13 +42,17 @@ def clear(folder):
 
 def sandlane(folder, scene, grains, integrator, steps, dt):
     """State after `steps` steps: {column: values}."""
-    folder.joinpath("scene.toml").write_text(scene)
-    values = numpy.column_stack([grains[name] for name in columns])
-    numpy.savetxt(folder / "grains.csv", values, fmt="%.17g", delimiter=",", header=",".join(columns), comments="")
+    save(folder, scene, grains)
     execute([measure.build / "sandlane", "run", "scene.toml", "--out", "out", "--steps", steps, "-j", 1, "--quiet",
              "--set", f"md.integrator={integrator}", "--set", f"md.dt={dt!r}",
              "--set", f"output.trajectory_every={steps * dt!r}"], folder)
     return read_dump(folder / "out/trajectory.dump")
+
+
+def save(folder, scene, grains):
+    folder.joinpath("scene.toml").write_text(scene)
+    values = numpy.column_stack([grains[name] for name in columns])
+    numpy.savetxt(folder / "grains.csv", values, fmt="%.17g", delimiter=",", header=",".join(columns), comments="")
 
 
 def materials(law, damping):

@@ -133,6 +133,11 @@ def peer(name):
         return None
 
 
+def choice(options):
+    chosen = peer("accuracy_choice")
+    return chosen.main(options) if chosen else skipped
+
+
 def peers(options):
     lammps = peer("lammps")
     return lammps.main(options, skipped) if lammps else skipped
@@ -279,6 +284,8 @@ def main():
     sub.add_argument("--write", action="store_true", help="writes tables and pictures into docs")
     sub.add_argument("--rounds", type=int, default=5, help="times that all integrators run in turn for their cost")
     sub.add_argument("--seconds", type=float, default=0.5, help="aimed time of one run for the cost")
+    sub = command("choice", choice, "what md.accuracy chooses: the error in runs, and whether something cheaper meets it")
+    sub.add_argument("--write", action="store_true", help="writes the table into docs/accuracy.md")
     sub = command("compare", compare, "two result files (build/bench/*.json) of the same cases")
     sub.add_argument("old")
     sub.add_argument("new")

@@ -52,7 +52,15 @@ DsmcEngine::DsmcEngine(std::shared_ptr<const scene::Scene> scene, std::shared_pt
                        simd::Isa isa)
     : scene_(std::move(scene)), plan_(std::move(plan)), isa_(isa),
       simulation_(plan_->setup, start_of(*scene_, *plan_), isa, plan_->threads),
-      theory_(dsmc::is_homogeneous(plan_->setup)) {}
+      theory_(dsmc::is_homogeneous(plan_->setup)), watcher_(scene_->watch),
+      start_(totals(simulation_.observe())) {}
+
+GasTotals DsmcEngine::totals(const dsmc::Observables& o) const {
+    const dsmc::Setup& s = plan_->setup;
+    double mass = 0;
+    for (std::size_t k = 0; k < kinds(); ++k) mass += s.kind(k).fraction * s.kind(k).mass;
+    return {mass * s.weight * static_cast<double>(size()), o.energy, simulation_.wall_energy(), o.drift, 0};
+}
 
 const Words& DsmcEngine::words() const {
     static const Words words{"particle", "particles", "particles", "particle-steps", "steps", "s"};
@@ -78,7 +86,9 @@ double DsmcEngine::time_step() const {
 
 void DsmcEngine::restore(const std::string& state, const std::string& origin) {
     try {
-        simulation_.restore(state);
+        ByteReader in(state);
+        watcher_.restore(in);
+        simulation_.restore(in.rest());
     } catch (const Error& e) {
         fail(e.code(),
              "{}: {}. Overrides by --set must keep gas, species, domain, sides, cells and time step.", origin,
@@ -129,6 +139,7 @@ std::vector<analysis::LogColumn> DsmcEngine::log_columns() const {
     columns.push_back({"collisions_per_particle", "1"});
     columns.push_back({"acceptance", "1"});
     columns.push_back({"dt", "s"});
+    watcher_.add_columns(columns);
     return columns;
 }
 
@@ -161,12 +172,17 @@ std::vector<double> DsmcEngine::log_row() {
                       ? static_cast<double>(counts.collisions) / static_cast<double>(counts.candidates)
                       : 0.0);
     row.push_back(simulation_.dt());
+    watcher_.see(watch_gas(start_, totals(o), time()), step(), time());
+    watcher_.add_row(row);
     return row;
 }
 
 std::vector<std::string> DsmcEngine::news() {
-    std::vector<std::string> news;
-    if (step() == 0) return plan_->warnings;
+    std::vector<std::string> news = watcher_.take_news();
+    if (step() == 0) {
+        news.insert(news.end(), plan_->warnings.begin(), plan_->warnings.end());
+        return news;
+    }
     const dsmc::Counts& now = simulation_.counts();
     const auto violations = static_cast<double>(now.violations),
                candidates = static_cast<double>(now.candidates);
@@ -264,20 +280,24 @@ std::string DsmcEngine::plan_json() const {
 std::string DsmcEngine::summary_json() const {
     const dsmc::Counts& counts = simulation_.counts();
     return fmt::format(R"("collisions": {}, "candidates": {}, "violations": {}, )", counts.collisions,
-                       counts.candidates, counts.violations);
+                       counts.candidates, counts.violations) +
+           watcher_.json();
 }
 
 std::vector<std::pair<std::string, std::string>> DsmcEngine::report_rows() const {
     const dsmc::Observables o = simulation_.observe();
-    return {{"Particles", std::to_string(size())},
-            {"Simulated time", fmt::format("{:.4g} s", time())},
-            {"Steps", std::to_string(step())},
-            {"Time step", fmt::format("{:.4g} s", simulation_.dt())},
-            {"Collisions per particle",
-             fmt::format("{:.4g}", 2 * static_cast<double>(simulation_.counts().collisions) /
-                                       static_cast<double>(size()))},
-            {"Temperature", fmt::format("{:.4g} J", o.temperature)},
-            {"Second Sonine coefficient", fmt::format("{:.4f}", o.fourth)}};
+    std::vector<std::pair<std::string, std::string>> rows = {
+        {"Particles", std::to_string(size())},
+        {"Simulated time", fmt::format("{:.4g} s", time())},
+        {"Steps", std::to_string(step())},
+        {"Time step", fmt::format("{:.4g} s", simulation_.dt())},
+        {"Collisions per particle",
+         fmt::format("{:.4g}",
+                     2 * static_cast<double>(simulation_.counts().collisions) / static_cast<double>(size()))},
+        {"Temperature", fmt::format("{:.4g} J", o.temperature)},
+        {"Second Sonine coefficient", fmt::format("{:.4f}", o.fourth)}};
+    watcher_.add_report_rows(rows);
+    return rows;
 }
 
 namespace {

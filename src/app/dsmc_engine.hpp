@@ -2,6 +2,8 @@
 #pragma once
 
 #include "app/gas_engine.hpp"
+#include "app/gas_watch.hpp"
+#include "app/watcher.hpp"
 #include "dsmc/plan.hpp"
 #include "dsmc/simulation.hpp"
 
@@ -43,7 +45,10 @@ public:
     [[nodiscard]] std::size_t size() const override { return simulation_.size(); }
 
     [[nodiscard]] Hash128 state_hash() const override { return simulation_.state_hash(); }
-    void serialise(ByteWriter& out) const override { out.put_bytes(simulation_.serialise()); }
+    void serialise(ByteWriter& out) const override {
+        watcher_.serialise(out);
+        out.put_bytes(simulation_.serialise());
+    }
     void restore(const std::string& state, const std::string& origin) override;
 
     [[nodiscard]] std::vector<Difference> compare_state(const Engine& other) const override;
@@ -59,6 +64,7 @@ public:
 
     [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override;
     [[nodiscard]] std::vector<double> log_row() override;
+    void judge() override { watcher_.judge(); }
     [[nodiscard]] std::vector<std::string> news() override;
     [[nodiscard]] std::unique_ptr<Recorder> recorder(const std::filesystem::path& folder,
                                                      const output::Checkpoint* resume) override;
@@ -70,6 +76,7 @@ private:
     [[nodiscard]] std::size_t kinds() const { return plan_->setup.kinds(); }
     [[nodiscard]] std::vector<dsmc::Particle> thermal_particles() const; // without the flow of a sheared gas
     void add_theory(std::vector<double>& row) const;
+    [[nodiscard]] GasTotals totals(const dsmc::Observables& o) const;
     [[nodiscard]] bool adaptive() const { return plan_->setup.adaptive; }
 
     std::shared_ptr<const scene::Scene> scene_;
@@ -78,6 +85,8 @@ private:
     dsmc::Simulation simulation_;
     dsmc::Counts told_; // what the last warnings were about
     bool theory_;
+    Watcher watcher_;
+    GasTotals start_;
 };
 
 } // namespace sandlane::app

@@ -2,7 +2,9 @@
 #include "analysis/gas_mixture.hpp"
 #include "app/gas_engine.hpp"
 #include "app/gas_recorder.hpp"
+#include "app/gas_watch.hpp"
 #include "app/json.hpp"
+#include "app/watcher.hpp"
 #include "core/bytes.hpp"
 #include "core/error.hpp"
 #include "edmd/plan.hpp"
@@ -62,7 +64,8 @@ public:
     EdmdEngine(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const edmd::Plan> plan,
                simd::Isa isa)
         : scene_(std::move(scene)), plan_(std::move(plan)), isa_(isa),
-          run_(edmd::start(*scene_, *plan_, isa)), mixture_(mixture_of(*plan_)) {}
+          run_(edmd::start(*scene_, *plan_, isa)), mixture_(mixture_of(*plan_)), watcher_(scene_->watch),
+          start_(totals(edmd::observe(plan_->setup, run_->particles()))) {}
 
     [[nodiscard]] const Words& words() const override {
         static const Words words{"particle", "particles", "particles", "events", "events", "s"};
@@ -107,6 +110,7 @@ public:
     [[nodiscard]] Hash128 state_hash() const override { return run_->state_hash(); }
     void serialise(ByteWriter& out) const override {
         out.put_array(&mark_, 1);
+        watcher_.serialise(out);
         out.put_text(run_->serialise());
     }
     void restore(const std::string& state, const std::string& origin) override {
@@ -115,6 +119,7 @@ public:
             std::vector<Mark> mark;
             in.get_array(mark);
             if (mark.size() != 1) fail(Exit::io, "damaged state");
+            watcher_.restore(in);
             run_->restore(in.get_text());
             mark_ = mark[0];
         } catch (const Error& e) {
@@ -149,8 +154,11 @@ public:
 
     [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override;
     [[nodiscard]] std::vector<double> log_row() override;
+    void judge() override { watcher_.judge(); }
     [[nodiscard]] std::vector<std::string> news() override {
-        return step() == 0 ? plan_->warnings : std::vector<std::string>{};
+        std::vector<std::string> news = watcher_.take_news();
+        if (step() == 0) news.insert(news.end(), plan_->warnings.begin(), plan_->warnings.end());
+        return news;
     }
     [[nodiscard]] std::unique_ptr<Recorder> recorder(const std::filesystem::path& folder,
                                                      const output::Checkpoint* resume) override {
@@ -204,11 +212,19 @@ public:
         return fmt::format(R"("collisions": {}, "wall_hits": {}, "elastic": {}, "smallest_gap": {}, )"
                            R"("event_log_hash": "{:016x}", )",
                            t.collisions, t.wall_hits, t.elastic, json_number(t.smallest_gap),
-                           run_->log().hash());
+                           run_->log().hash()) +
+               watcher_.json();
     }
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> report_rows() const override;
 
 private:
+    [[nodiscard]] GasTotals totals(const edmd::Observables& o) const {
+        const edmd::Tally& t = run_->tally();
+        double mass = 0;
+        for (std::size_t k = 0; k < plan_->amounts.size(); ++k)
+            mass += static_cast<double>(plan_->amounts[k]) * plan_->setup.classes[k].mass;
+        return {mass, o.energy, t.wall_energy, o.drift, -t.smallest_gap / plan_->setup.smallest_radius()};
+    }
     [[nodiscard]] bool guards() const {
         return plan_->setup.contact_time > 0 || plan_->setup.elastic_speed > 0;
     }
@@ -219,7 +235,9 @@ private:
     std::unique_ptr<edmd::Algorithm> run_;
     bool ended_ = false; // nothing is left to happen until the end
     Mark mark_;
-    analysis::MixtureGas mixture_;    // no kinds: theory knows nothing
+    analysis::MixtureGas mixture_; // no kinds: theory knows nothing
+    Watcher watcher_;
+    GasTotals start_;
     std::vector<edmd::Event> events_; // since they were taken the last time
 };
 
@@ -256,6 +274,7 @@ std::vector<analysis::LogColumn> EdmdEngine::log_columns() const {
     columns.insert(columns.end(),
                    {{"collisions_per_particle", "1"}, {"collision_rate", "1/s"}, {"compressibility", "1"}});
     if (guards()) columns.push_back({"elastic_collisions", "1"});
+    watcher_.add_columns(columns);
     return columns;
 }
 
@@ -285,6 +304,8 @@ std::vector<double> EdmdEngine::log_row() {
                          : 1;
     row.insert(row.end(), {2 * static_cast<double>(t.collisions) / n, rate, z});
     if (guards()) row.push_back(static_cast<double>(t.elastic));
+    watcher_.see(watch_gas(start_, totals(o), time()), step(), time());
+    watcher_.add_row(row);
     mark_ = {time(), t.virial, o.temperature, t.collisions};
     return row;
 }

@@ -140,6 +140,9 @@ public:
     // ---- outputs
     [[nodiscard]] virtual std::vector<analysis::LogColumn> log_columns() const = 0;
     [[nodiscard]] virtual std::vector<double> log_row() = 0; // one number per column
+    // After a row of the log and its warnings. Throws Error(unstable) where the row is beyond a limit of the
+    // scene.
+    virtual void judge() {}
     // Warnings since the last call.
     [[nodiscard]] virtual std::vector<std::string> news() { return {}; }
     // resume: go on with the files of the folder where the checkpoint says; null: a fresh folder.

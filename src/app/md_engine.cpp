@@ -6,6 +6,7 @@
 #include "app/md_log.hpp"
 #include "app/md_recorder.hpp"
 #include "core/error.hpp"
+#include "md/accuracy.hpp"
 #include "output/picture.hpp"
 #include "scene/schema.hpp"
 
@@ -40,6 +41,7 @@ const md::Simulation& simulation_of(const Engine& engine) {
 void MdEngine::serialise(ByteWriter& out) const {
     out.put(grains_.high);
     out.put(grains_.low);
+    watcher_.serialise(out);
     simulation_.serialise(out);
 }
 
@@ -50,7 +52,8 @@ void MdEngine::restore(const std::string& state, const std::string& origin) {
         if (Hash128{high, low} != grains_)
             fail(Exit::io,
                  "its grains are not those that its scene describes now; a file of grains has changed");
-        simulation_.restore(std::string_view(state).substr(2 * sizeof(std::uint64_t)));
+        watcher_.restore(in);
+        simulation_.restore(in.rest());
     } catch (const Error& e) {
         fail(e.code(), "{}: {}. Overrides by --set must keep grains, domain, walls, laws and time step.",
              origin, e.what());
@@ -66,7 +69,7 @@ std::vector<Difference> MdEngine::compare_kernels(simd::Isa first, simd::Isa sec
 }
 
 std::vector<analysis::LogColumn> MdEngine::log_columns() const {
-    return app::log_columns(scene());
+    return app::log_columns(scene(), watcher_);
 }
 
 std::vector<double> MdEngine::log_row() {
@@ -77,12 +80,13 @@ std::vector<double> MdEngine::log_row() {
             "t = {:.4g} s: largest overlap {:.3g} R_min is above 0.05; the material is soft for this load",
             time(), o.largest_overlap));
     }
-    return app::log_row(simulation_, o);
+    watcher_.see(simulation_.watch(o), step(), time());
+    return app::log_row(simulation_, o, watcher_);
 }
 
 std::vector<std::string> MdEngine::news() {
-    std::vector<std::string> news = std::move(warnings_);
-    warnings_.clear();
+    std::vector<std::string> news = std::exchange(warnings_, {});
+    for (std::string& warning : watcher_.take_news()) news.push_back(std::move(warning));
     const std::vector<std::string>& events = simulation_.events();
     for (; events_seen_ < events.size(); ++events_seen_) news.push_back(events[events_seen_]);
     return news;
@@ -117,14 +121,17 @@ std::string MdEngine::plan_json() const {
 }
 
 std::string MdEngine::summary_json() const {
-    return fmt::format(R"("removed": {}, )", simulation_.removed());
+    return fmt::format(R"("removed": {}, )", simulation_.removed()) + watcher_.json();
 }
 
 std::vector<std::pair<std::string, std::string>> MdEngine::report_rows() const {
-    return {{"Grains", std::to_string(size())},
-            {"Simulated time", fmt::format("{:.4g} s", time())},
-            {stride() > 1 ? "Shortest units of the time step" : "Steps", std::to_string(step())},
-            {"Time step", fmt::format("{:.4g} s", simulation_.plan().dt)}};
+    std::vector<std::pair<std::string, std::string>> rows = {
+        {"Grains", std::to_string(size())},
+        {"Simulated time", fmt::format("{:.4g} s", time())},
+        {stride() > 1 ? "Shortest units of the time step" : "Steps", std::to_string(step())},
+        {"Time step", fmt::format("{:.4g} s", simulation_.plan().dt)}};
+    watcher_.add_report_rows(rows);
+    return rows;
 }
 
 namespace {
@@ -133,8 +140,16 @@ class MdSetup final : public Setup {
 public:
     MdSetup(scene::Scene scene, const Machine& machine)
         : scene_(std::move(scene)), grains_(scene::initial_grains(scene_)),
-          needs_(md::analyse(scene_, grains_)), derived_(md::derive(scene_, needs_)),
-          plan_(md::make_plan(scene_, needs_, derived_, machine.isa, machine.threads)) {}
+          needs_(md::analyse(scene_, grains_)) {
+        scene::Scene resolved = scene_;
+        if (scene_.md.accuracy > 0) {
+            accuracy_ = md::choose_by_accuracy(scene_, needs_);
+            resolved = md::with_choice(scene_, accuracy_);
+        }
+        derived_ = md::derive(resolved, needs_);
+        plan_ = md::make_plan(resolved, needs_, derived_, machine.isa, machine.threads);
+        plan_.chosen.insert(plan_.chosen.end(), accuracy_.reasons.begin(), accuracy_.reasons.end());
+    }
 
     [[nodiscard]] double memory_bytes() const override { return md::memory_bytes(needs_, plan_); }
     [[nodiscard]] std::string description() const override {
@@ -143,11 +158,12 @@ public:
     [[nodiscard]] std::string json() const override {
         return fmt::format(
             R"({{"grains": {}, "poured": {}, "dt": {}, "steps": {}, "collision_time": {}, "critical_dt": {}, )"
-            R"("restitution": [{}, {}], "memory_bytes": {}, "isa": "{}", "threads": {}}})",
+            R"("restitution": [{}, {}], "memory_bytes": {}, "isa": "{}", "order": {}, "accuracy": {}, )"
+            R"("threads": {}}})",
             needs_.grains, needs_.poured, json_number(plan_.dt), plan_.steps,
             json_number(derived_.collision_time), json_number(derived_.critical_dt),
             json_number(derived_.restitution_min), json_number(derived_.restitution_max), memory_bytes(),
-            simd::isa_name(plan_.isa), plan_.threads);
+            simd::isa_name(plan_.isa), plan_.order, accuracy_json(), plan_.threads);
     }
     [[nodiscard]] std::unique_ptr<Engine> start() override { return start(plan_.isa); }
     [[nodiscard]] std::unique_ptr<Engine> start(simd::Isa isa) override {
@@ -161,9 +177,23 @@ public:
     }
 
 private:
+    // Of md.accuracy; null without.
+    [[nodiscard]] std::string accuracy_json() const {
+        const md::AccuracyChoice& choice = accuracy_;
+        std::string costs;
+        for (const md::Candidate& c : choice.all)
+            costs += fmt::format(R"({}"{}": {})", costs.empty() ? "" : ", ",
+                                 md::integrator_name(c.integrator), md::step_cost(scene_, c.integrator));
+        if (costs.empty()) return "null";
+        return fmt::format(R"({{"integrator": "{}", "error": {}, "cost_ns": {}, "step_ns": {{{}}}}})",
+                           md::integrator_name(choice.best.integrator), json_number(choice.best.error),
+                           json_number(choice.best.cost), costs);
+    }
+
     scene::Scene scene_;
     std::vector<scene::GrainState> grains_;
     md::Needs needs_;
+    md::AccuracyChoice accuracy_; // empty without md.accuracy
     md::Derived derived_;
     md::Plan plan_;
 };

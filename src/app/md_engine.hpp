@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/engine.hpp"
+#include "app/watcher.hpp"
 #include "md/simulation.hpp"
 #include "scene/initial_state.hpp"
 
@@ -16,7 +17,7 @@ class MdEngine final : public Engine {
 public:
     // grains: hash of those that the scene describes.
     MdEngine(md::Simulation simulation, Hash128 grains)
-        : simulation_(std::move(simulation)), grains_(grains) {}
+        : simulation_(std::move(simulation)), grains_(grains), watcher_(simulation_.scene().watch) {}
 
     [[nodiscard]] const md::Simulation& simulation() const { return simulation_; }
 
@@ -45,6 +46,7 @@ public:
 
     [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override;
     [[nodiscard]] std::vector<double> log_row() override;
+    void judge() override { watcher_.judge(); }
     [[nodiscard]] std::vector<std::string> news() override;
     [[nodiscard]] std::unique_ptr<Recorder> recorder(const std::filesystem::path& folder,
                                                      const output::Checkpoint* resume) override;
@@ -58,6 +60,7 @@ private:
     Hash128 grains_;
     std::vector<std::string> warnings_; // not told yet
     bool overlap_warned_ = false;
+    Watcher watcher_;
     std::size_t events_seen_ = 0;
 };
 

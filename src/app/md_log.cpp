@@ -87,9 +87,10 @@ void for_entries(const Entries& table, const scene::Scene& scene, const Body& bo
 
 } // namespace
 
-std::vector<analysis::LogColumn> log_columns(const scene::Scene& scene) {
+std::vector<analysis::LogColumn> log_columns(const scene::Scene& scene, const Watcher& watcher) {
     std::vector<analysis::LogColumn> columns;
     for_entries(entries, scene, [&](const Entry& e) { columns.push_back({e.name, e.unit}); });
+    watcher.add_columns(columns);
     for (std::size_t wall = 0; wall < scene.walls.size(); ++wall)
         for_entries(wall_entries, scene, [&](const WallEntry& e) {
             columns.push_back({fmt::format("{}_{}", wall_name(scene, wall), e.name), e.unit});
@@ -97,10 +98,12 @@ std::vector<analysis::LogColumn> log_columns(const scene::Scene& scene) {
     return columns;
 }
 
-std::vector<double> log_row(const md::Simulation& simulation, const md::Observables& observed) {
+std::vector<double> log_row(const md::Simulation& simulation, const md::Observables& observed,
+                            const Watcher& watcher) {
     const scene::Scene& scene = simulation.scene();
     std::vector<double> row;
     for_entries(entries, scene, [&](const Entry& e) { row.push_back(e.value(simulation, observed)); });
+    watcher.add_row(row);
     for (const md::WallLoad& load : observed.walls)
         for_entries(wall_entries, scene, [&](const WallEntry& e) { row.push_back(e.value(load)); });
     return row;

@@ -72,10 +72,12 @@ double RunOutputs::next_time() const {
 }
 
 void RunOutputs::write_due(bool all) {
-    if (log_timer_.is_due(engine_, all)) log_->write(std::vector<std::vector<double>>{engine_.log_row()});
+    const bool log = log_timer_.is_due(engine_, all);
+    if (log) log_->write(std::vector<std::vector<double>>{engine_.log_row()});
     recorder_->write_due(all);
     if (checkpoint_timer_.is_due(engine_, all) && engine_.step() > 0) write_checkpoint();
     for (const std::string& text : engine_.news()) warn(text);
+    if (log) engine_.judge();
 }
 
 // Keeps the two newest: one of them is whole whatever happens while the other is written.

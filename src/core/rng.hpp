@@ -17,6 +17,7 @@ enum class Stream : std::uint32_t {
     jitter = 4,
     pour = 5,
     factory = 6,
+    watch = 7,
 };
 
 using PhiloxCounter = std::array<std::uint32_t, 4>;

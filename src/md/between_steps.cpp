@@ -70,28 +70,35 @@ void Simulation::use_link_cells() {
     prepare_method();
 }
 
-void Simulation::check_overlap(double overlap) const {
+void Simulation::check_overlap(double overlap) {
     if (overlap > needs_.radius_min) fail_overlap();
+    if (overlap > balance_.examined) see_overlap(overlap);
+}
+
+Simulation::Touching Simulation::deepest_pair(bool relative) const {
+    const auto centre = [&](std::size_t i) { return state_.position(i); };
+    double worst = -infinity;
+    Touching pair{0, 0, 0, 0};
+    for_near_pairs(box(force_time()), state_, centre, [&](std::size_t i, std::size_t j, Vec d) {
+        const double overlap = state_.radius(i) + state_.radius(j) - norm(d);
+        const double measure = relative ? overlap / std::min(state_.radius(i), state_.radius(j)) : overlap;
+        if (measure <= worst) return;
+        worst = measure;
+        const std::size_t first = std::min(state_.id[i], state_.id[j]) == state_.id[i] ? i : j;
+        pair = {first, first == i ? j : i, overlap, norm(d)};
+    });
+    return pair;
 }
 
 // Names the two grains that overlap most at the predicted positions.
 void Simulation::fail_overlap() const {
-    const auto centre = [&](std::size_t i) { return state_.position(i); };
-    double worst = -infinity, distance = 0;
-    std::size_t first = 0, second = 0;
-    for_near_pairs(box(force_time()), state_, centre, [&](std::size_t i, std::size_t j, Vec d) {
-        const double overlap = state_.radius(i) + state_.radius(j) - norm(d);
-        if (overlap <= worst) return;
-        worst = overlap;
-        distance = norm(d);
-        first = std::min(state_.id[i], state_.id[j]) == state_.id[i] ? i : j;
-        second = first == i ? j : i;
-    });
+    const Touching worst = deepest_pair(false);
     fail(Exit::unstable,
          "step {}, t = {:.6g} s: grains {} and {} overlap by {:.4g} m, their centres are {:.4g} m apart "
          "(allowed: R_min = {:.4g} m). The material is too soft for this load, or the time step too large: "
          "raise its stiffness or lower md.dt.",
-         step_, time(), state_.id[first], state_.id[second], worst, distance, needs_.radius_min);
+         step_, time(), state_.id[worst.first], state_.id[worst.second], worst.overlap, worst.distance,
+         needs_.radius_min);
 }
 
 } // namespace sandlane::md

@@ -86,14 +86,21 @@ void Simulation::insert_due() {
         const std::vector<double> no_force(state_.force_stride());
         state_.set_accelerations(i, no_force.data(), motion_view(force_step_));
         added_energy_ += grain_energy(scene_, plan_, state_, i);
+        balance_.mass += state_.mass[i];
+        balance_.brought = balance_.brought + (state_.mass[i] / plan_.dt) * state_.shift(i);
         ++next_waiting_;
         inserted = true;
     }
     if (inserted) sort_by_place();
 }
 
-void Simulation::take_out(std::size_t grain) {
+// ahead: of the time up to which gravity is booked its velocity stands, s.
+void Simulation::take_out(std::size_t grain, double ahead) {
     added_energy_ -= grain_energy(scene_, plan_, state_, grain);
+    const double mass = state_.mass[grain];
+    balance_.mass -= mass;
+    balance_.brought =
+        balance_.brought - (mass / plan_.dt) * state_.shift(grain) + (mass * ahead) * linear_gravity(scene_);
     ++removed_;
 }
 
@@ -114,7 +121,7 @@ void Simulation::empty_sinks() {
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i < state_.size(); ++i)
         if (sinks(state_.position(i)))
-            take_out(i);
+            take_out(i, 0);
         else
             kept.push_back(static_cast<std::uint32_t>(i));
     if (kept.size() < state_.size()) keep(kept);
@@ -135,9 +142,7 @@ void Simulation::handle_outside() {
             kept.push_back(static_cast<std::uint32_t>(i));
             continue;
         }
-        const std::string place = plan_.dimension == 2
-                                      ? fmt::format("({:.6g}, {:.6g})", p.x, p.y)
-                                      : fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+        const std::string place = text_of(p);
         if (!std::isfinite(norm(p)) || !std::isfinite(norm(state_.shift(i))))
             fail(Exit::unstable,
                  "step {}, t = {:.6g} s: grain {} has position {}: the run is unstable; lower md.dt", step_,
@@ -147,7 +152,7 @@ void Simulation::handle_outside() {
                  "step {}, t = {:.6g} s: grain {} left the domain at {}. Enlarge the domain, add walls, or "
                  "set domain.outside = \"remove\".",
                  step_, time(), state_.id[i], place);
-        take_out(i);
+        take_out(i, plan_.dt);
     }
     keep(kept);
     bin();

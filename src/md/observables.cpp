@@ -1,5 +1,6 @@
 #include "md/observables.hpp"
 
+#include "core/rng.hpp"
 #include "laws/contact.hpp"
 #include "md/law_choice.hpp"
 #include "md/near_pairs.hpp"
@@ -7,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 namespace sandlane::md {
 
@@ -78,6 +81,8 @@ struct Found {
     const WallElement* element;    // null: a pair of grains
     Vec wall_point, wall_velocity; // of the material on the surface of the wall
     Vec wall_torque, wall_spin;    // torque on the wall besides that of -force at wall_point; its rotation
+    double rate, reduced_radius;   // of the overlap, m/s; m
+    Coefficients coefficients;
 };
 
 class Search {
@@ -117,9 +122,10 @@ private:
                              rj,
                              ri * ri - rj * rj};
             const bool known = memories_.pairs.find(state_.id[i], state_.id[j], memory);
-            const ContactForce f =
-                kernel_(s, coefficients_of(state_.material[i], state_.material[j]), known ? memory : nullptr);
-            body(Found{i, j, (1 / norm(d)) * d, f, nullptr, {}, {}, {}, {}});
+            const Coefficients c = coefficients_of(state_.material[i], state_.material[j]);
+            const ContactForce f = kernel_(s, c, known ? memory : nullptr);
+            const Vec n = (1 / norm(d)) * d;
+            body(Found{i, j, n, f, nullptr, {}, {}, {}, {}, -dot(dv, n), 1 / s.inverse_radii, c});
         });
     }
 
@@ -137,8 +143,9 @@ private:
                          state_.radius(i),
                          c.radius,
                          flat_or_round(c, state_.radius(i))};
-        const ContactForce f = kernel_(s, coefficients_of(state_.material[i], element.material),
-                                       memories_.walls.find_wall(state_.id[i], static_cast<std::int64_t>(e)));
+        const Coefficients k = coefficients_of(state_.material[i], element.material);
+        const ContactForce f =
+            kernel_(s, k, memories_.walls.find_wall(state_.id[i], static_cast<std::int64_t>(e)));
         return {i,
                 i,
                 n,
@@ -147,7 +154,10 @@ private:
                 state_.position(i) + (c.distance - c.radius) * n,
                 c.velocity + c.spin * Vec{n.y, -n.x, 0},
                 c.radius * (f.turning - cross(n, f.force)) - f.couple,
-                c.angular_velocity};
+                c.angular_velocity,
+                -dot(vec(s.dv), n),
+                1 / s.inverse_radii,
+                k};
     }
 
     static Vector<double> vector(Vec v) { return {v.x, v.y, v.z}; }
@@ -176,8 +186,7 @@ struct GrainEnergy {
 GrainEnergy energies_of(const scene::Scene& scene, const Plan& plan, const State& state, std::size_t i) {
     const double rate = 1 / plan.dt, m = state.mass[i];
     const Vec v = rate * state.shift(i), size = plan.upper - plan.lower;
-    const Vec g{scene.domain.gravity.x, scene.domain.gravity.y,
-                plan.dimension == 3 ? scene.domain.gravity.z : 0.0};
+    const Vec g = linear_gravity(scene);
     const Vec unwrapped =
         state.position(i) - plan.lower +
         Vec{state.images(i, 0) * size.x, state.images(i, 1) * size.y, state.images(i, 2) * size.z};
@@ -211,6 +220,14 @@ void add_wall_load(const Walls& walls, const Found& c, WallLoad& load) {
     load.power += dot(force, c.wall_velocity) - dot(c.wall_torque, c.wall_spin);
 }
 
+Place place_of(const State& state, const Found& c) {
+    const std::int64_t first = state.id[c.first];
+    if (c.element != nullptr) return {first, -1 - c.element->wall, state.position(c.first)};
+    const std::int64_t second = state.id[c.second];
+    return first < second ? Place{first, second, state.position(c.first)}
+                          : Place{second, first, state.position(c.second)};
+}
+
 } // namespace
 
 Observables observe(const scene::Scene& scene, const Plan& plan, const State& state, const Walls& walls,
@@ -240,7 +257,10 @@ Observables observe(const scene::Scene& scene, const Plan& plan, const State& st
             ++o.wall_contacts;
             add_wall_load(walls, c, o.walls[static_cast<std::size_t>(c.element->wall)]);
         }
-        o.largest_overlap = std::max(o.largest_overlap, c.force.overlap / smaller);
+        const double ratio = c.force.overlap / smaller;
+        if (ratio <= o.largest_overlap) return;
+        o.largest_overlap = ratio;
+        o.deepest = place_of(state, c);
     });
     return o;
 }
@@ -264,6 +284,46 @@ analysis::Contacts contacts(const scene::Scene& scene, const Plan& plan, const S
         to.j = static_cast<std::int32_t>(c.second);
         to.point = state.position(c.first) + (state.radius(c.first) - 0.5 * c.force.overlap) * c.normal;
     });
+    return all;
+}
+
+std::vector<SampledContact> sample_contacts(const scene::Scene& scene, const Plan& plan, const State& state,
+                                            const Walls& walls, const std::vector<double>& coefficients,
+                                            const ContactMemories& memories, const scene::Box& box,
+                                            std::int64_t step) {
+    const Random random(static_cast<std::uint64_t>(scene.seed), Stream::watch);
+    const auto at_step = static_cast<std::uint64_t>(step);
+    std::vector<SampledContact> all;
+    Search(scene, plan, state, walls, coefficients, memories, box).for_contacts([&](const Found& c) {
+        const bool wall = c.element != nullptr;
+        SampledContact s;
+        s.place = place_of(state, c);
+        const double mass = 1 / (state.inverse_mass[c.first] + (wall ? 0 : state.inverse_mass[c.second]));
+        const double square = c.rate * c.rate + 2 * c.force.energy / mass;
+        if (!(square > 0)) return;
+        s.impact = {c.coefficients, mass, c.reduced_radius, std::sqrt(square), 0};
+        // A chain of three draws: neither grain nor step alone decides.
+        const auto mixed = [&](std::uint64_t with) {
+            const auto [u, w] = random.uniform2(with ^ s.key);
+            s.key = static_cast<std::uint64_t>(u * 0x1p53);
+            s.phase = w;
+        };
+        for (const auto part :
+             {at_step, static_cast<std::uint64_t>(s.place.first), static_cast<std::uint64_t>(s.place.second)})
+            mixed(part);
+        all.push_back(s);
+    });
+    const auto count = std::min(all.size(), static_cast<std::size_t>(scene.watch.sample));
+    const auto before = [](const SampledContact& a, const SampledContact& b) {
+        return std::tie(a.key, a.place.first, a.place.second) <
+               std::tie(b.key, b.place.first, b.place.second);
+    };
+    std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end(), before);
+    all.resize(count);
+    for (SampledContact& s : all) {
+        const Impact& k = s.impact;
+        s.impact = make_impact(plan.normal, k.coefficients, k.mass, k.radius, k.speed);
+    }
     return all;
 }
 

@@ -17,11 +17,6 @@ using scene::Scene;
 
 namespace {
 
-const char* integrator_name(scene::Integrator integrator) {
-    static const char* names[] = {"gear4", "gear5", "gear6", "velocity-verlet"};
-    return names[static_cast<int>(integrator)];
-}
-
 // What contacts of the plan's laws remember.
 void set_memory(Plan& plan) {
     with_laws(plan.normal, plan.tangential, plan.couples,
@@ -37,6 +32,11 @@ void set_memory(Plan& plan) {
 }
 
 } // namespace
+
+const char* integrator_name(scene::Integrator integrator) {
+    static const char* names[] = {"gear5", "gear4", "gear5", "gear6", "velocity-verlet"};
+    return names[static_cast<int>(integrator)];
+}
 
 double lattice_ratio_bound(int reach, double delta) {
     return reach * (2 - delta) / (2 * std::numbers::sqrt2);

@@ -69,6 +69,7 @@ struct Plan {
     switch (integrator) {
     case scene::Integrator::gear4:
         return 4;
+    case scene::Integrator::automatic:
     case scene::Integrator::gear5:
         return 5;
     case scene::Integrator::gear6:
@@ -78,6 +79,9 @@ struct Plan {
     }
     return 5;
 }
+
+// As in a scene; the one that runs, for "auto" without md.accuracy.
+[[nodiscard]] const char* integrator_name(scene::Integrator integrator);
 
 // Laws whose contacts hold a spring.
 [[nodiscard]] constexpr bool has_spring(scene::TangentialLaw law) {

@@ -52,6 +52,7 @@ void Simulation::serialise(ByteWriter& w) const {
     for (const double energy :
          {initial_energy_, added_energy_, wall_work_, wall_power_, shear_work_, shear_power_})
         w.put(energy);
+    w.put_array(&balance_, 1);
     w.put(static_cast<std::int32_t>(state_.order));
     w.put(static_cast<std::int32_t>(state_.dofs()));
     w.put_array(state_.gear.data(), state_.gear.size());
@@ -94,6 +95,9 @@ void Simulation::restore(std::string_view bytes) {
     for (double* energy :
          {&initial_energy_, &added_energy_, &wall_work_, &wall_power_, &shear_work_, &shear_power_})
         *energy = r.get<double>();
+    std::vector<Balance> balance;
+    r.get_array(balance);
+    if (balance.size() != 1) damaged();
     if (r.get<std::int32_t>() != state_.order || r.get<std::int32_t>() != state_.dofs()) damaged();
     r.get_array(state_.gear);
     state_.for_columns([&](auto& column, std::size_t) { r.get_array(column); });
@@ -127,6 +131,10 @@ void Simulation::restore(std::string_view bytes) {
     force_step_ = step_ + plan_.stride;
     sorted_ = true;
     if (lattice_.rows() > 0) lattice_.clear(state_); // the next prediction puts all grains on it
+    if (balance.front().kind == balance_kind())
+        balance_ = balance.front();
+    else
+        begin_balance(); // watched from now on
 }
 
 } // namespace sandlane::md

@@ -75,6 +75,7 @@ void Simulation::start(std::vector<scene::GrainState> grains) {
     }
     wall_work_ = shear_work_ = 0;
     initial_energy_ = observe().energy();
+    begin_balance();
 }
 
 // ---- the time step
@@ -156,6 +157,7 @@ void Simulation::forces_and_motion(bool predict) {
     motion_results_.resize(state_.tiles());
     wall_results_.resize(state_.tiles());
     tile_overlaps_.resize(state_.tiles());
+    tile_sums_.resize(state_.tiles());
     const bool watch = plan_.freeze && predict;
     if (watch) watch_still_tiles();
     for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
@@ -178,6 +180,7 @@ void Simulation::forces_and_motion(bool predict) {
     check_walls();
     add_wall_work();
     add_shear_work();
+    if (sums_) add_balance();
     force_step_ += plan_.stride;
     state_.record.swap(state_.next_record);
     state_.spin.swap(state_.next_spin);
@@ -214,9 +217,11 @@ double* Simulation::add_tile_forces(std::size_t tile) {
     double* force = accumulators_[static_cast<std::size_t>(thread_index())].data();
     const simd::TileKernel kernel = law().tile[static_cast<int>(plan_.couples)][plan_.many_materials ? 1 : 0];
     tile_overlaps_[tile] = kernel(pair_view(), lists_.tile(tile, state_), force, 0.0);
+    if (sums_) sum_forces(tile, force, false);
     if (!walls_.empty())
         wall_results_[tile] = walls_.add_forces(wall_input(force, tile * tile_size), tile, state_.size(),
                                                 plan_.isa != simd::Isa::scalar);
+    if (sums_) sum_forces(tile, force, true);
     return force;
 }
 
@@ -231,7 +236,11 @@ void Simulation::check_motion() {
         outside += r.outside;
     }
     largest_speed_ = std::sqrt(shift2) / plan_.dt;
-    for (const simd::MotionResult& r : motion_results_) shear_work_ += r.seam_gain / (plan_.dt * plan_.dt);
+    for (const simd::MotionResult& r : motion_results_) {
+        const double gain = r.seam_gain / (plan_.dt * plan_.dt);
+        shear_work_ += gain;
+        balance_.crossing += gain;
+    }
     if (largest_speed_ * plan_.dt > 0.1 * needs_.radius_min)
         fail(
             Exit::unstable,
@@ -261,8 +270,18 @@ void Simulation::move_walls() {
 void Simulation::compute_forces() {
     move_walls();
     pair_forces();
+    const auto sum = [&](bool walls) {
+        if (!sums_) return;
+        tile_sums_.resize(state_.tiles());
+        for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
+            sum_forces(tile, state_.force.data() + tile * tile_size * state_.force_stride(), walls);
+        });
+    };
+    sum(false);
     wall_forces();
+    sum(true);
     add_wall_work();
+    if (sums_) add_balance();
     force_step_ += plan_.stride;
 }
 
@@ -279,6 +298,7 @@ std::vector<double> Simulation::take_forces() {
     lists_.update(state_, pair_view(), kernels(), plan_.threads, force_time());
     tile_overlaps_.assign(state_.tiles(), 0.0);
     wall_results_.assign(state_.tiles(), {});
+    tile_sums_.assign(state_.tiles(), {});
     for (std::size_t tile = 0; tile < state_.tiles(); ++tile) {
         double* force = add_tile_forces(tile);
         const std::size_t begin = tile * tile_size, count = std::min(state_.size() - begin, tile_size);
@@ -289,6 +309,7 @@ std::vector<double> Simulation::take_forces() {
     check_walls();
     add_wall_work();
     add_shear_work();
+    if (sums_) add_balance();
     force_step_ += plan_.stride;
     return forces;
 }
@@ -345,10 +366,11 @@ void Simulation::wall_forces() {
     check_walls();
 }
 
-void Simulation::check_walls() const {
+void Simulation::check_walls() {
     WallResult worst;
     for (const WallResult& r : wall_results_)
         if (r.largest_ratio > worst.largest_ratio) worst = r;
+    if (scene_.watch.overlap.asked && worst.grain >= 0) see_wall(worst);
     if (worst.largest_ratio < 0.9) return;
     fail(Exit::unstable,
          "step {}, t = {:.6g} s: grain {} overlaps wall \"{}\" by {:.3g} of its radius (allowed: 0.9). "

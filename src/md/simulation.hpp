@@ -2,8 +2,10 @@
 #pragma once
 
 #include "analysis/snapshot.hpp"
+#include "analysis/watched.hpp"
 #include "core/bytes.hpp"
 #include "core/hash.hpp"
+#include "md/balance.hpp"
 #include "md/lattice.hpp"
 #include "md/link_cells.hpp"
 #include "md/observables.hpp"
@@ -71,6 +73,11 @@ public:
         return initial_energy_ + added_energy_ + wall_work_ + shear_work_ - now.energy();
     }
 
+    // Errors of the run so far, of those that the scene watches; `now` are the observables of the present
+    // state.
+    [[nodiscard]] analysis::Watched watch(const Observables& now);
+    [[nodiscard]] const Balance& balance() const { return balance_; }
+
     // Tiles of grains at rest that the next step goes over, as things stand; see md.freeze.
     [[nodiscard]] std::size_t still_tiles() const { return plan_.freeze ? still_.skipped() : 0; }
     [[nodiscard]] std::int64_t removed() const { return removed_; }
@@ -93,7 +100,7 @@ private:
     [[nodiscard]] double wanted_time_step() const;
     class Room;
     void empty_sinks();
-    void take_out(std::size_t grain);
+    void take_out(std::size_t grain, double ahead);
     void keep(const std::vector<std::uint32_t>& kept);
 
     void integrate(bool correct, bool predict);
@@ -102,7 +109,7 @@ private:
     void bin();
     void pair_forces();
     void wall_forces();
-    void check_walls() const;
+    void check_walls();
     void add_wall_work();
     void add_shear_work();
     [[nodiscard]] double seam_power(std::size_t tile);
@@ -124,7 +131,28 @@ private:
     [[nodiscard]] bool is_inside(Vec p) const;
     void handle_outside();
     [[noreturn]] void fail_overlap() const;
-    void check_overlap(double overlap) const;
+    void check_overlap(double overlap);
+    struct Touching {
+        std::size_t first, second; // storage indices, first the one of the smaller id
+        double overlap, distance;  // m
+    };
+    // The pair that overlaps most at the predicted positions, in m or relative to the smaller radius.
+    [[nodiscard]] Touching deepest_pair(bool relative) const;
+    void see_overlap(double overlap);
+    void see_wall(const WallResult& worst);
+    void note_overlap(double ratio, const Place& where, double time);
+    [[nodiscard]] std::string text_of(Vec position) const;
+    [[nodiscard]] std::string text_of(const Place& contact) const;
+
+    // 1, and 2 where no contact loses energy, and 4 where forces are summed.
+    [[nodiscard]] double balance_kind() const;
+    void begin_balance();
+    void sum_forces(std::size_t tile, const double* force, bool walls);
+    void add_balance();
+    [[nodiscard]] double balanced_energy(const Observables& now) const;
+    [[nodiscard]] double energy_residual(const Observables& now) const;
+    [[nodiscard]] double momentum_error(const Observables& now) const;
+    void add_step_error(analysis::Watched& w) const;
     [[nodiscard]] simd::MotionView motion_view(std::int64_t predicted);
     [[nodiscard]] scene::GrainState with_shear_flow(scene::GrainState grain) const;
     [[nodiscard]] double seam(double time) const;
@@ -153,6 +181,10 @@ private:
     std::vector<simd::MotionResult> motion_results_;
     std::vector<WallResult> wall_results_;
     std::vector<double> tile_overlaps_;
+    std::vector<TileSums> tile_sums_; // where forces are summed
+    bool sums_ = false;
+    Balance balance_;
+    Place deepest_; // where the largest overlap was
     std::vector<Column<double>> accumulators_;
     Walls walls_;
     std::vector<scene::GrainState> waiting_; // poured grains, by time of insertion

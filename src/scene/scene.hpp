@@ -46,7 +46,7 @@ enum class TangentialLaw {
 #define TANGENTIAL(type, choice, name) choice,
 #include "laws/laws.def"
 };
-enum class Integrator { gear4, gear5, gear6, velocity_verlet };
+enum class Integrator { automatic, gear4, gear5, gear6, velocity_verlet };
 enum class NeighbourMethod { automatic, brute_force, link_cells, lattice, lattice_half, verlet };
 enum class Inertia { disc, sphere }; // J = m R^2/2 or 2/5 m R^2 (docs/physics.md 1)
 enum class Body { sphere, disc };    // mass of a grain: 4/3 pi R^3 rho, or pi R^2 rho (per metre of depth)
@@ -193,9 +193,10 @@ struct Motion {
 struct Md {
     NormalLaw normal = NormalLaw::viscoelastic;
     TangentialLaw tangential = TangentialLaw::haff_werner;
-    Integrator integrator = Integrator::gear5;
+    Integrator integrator = Integrator::automatic; // gear5, or what accuracy asks for
     NeighbourMethod neighbours = NeighbourMethod::automatic;
-    double dt = 0; // 0: t_c/50 at max_speed
+    double dt = 0;       // 0: t_c/50 at max_speed, or what accuracy asks for
+    double accuracy = 0; // largest error of a collision; 0: not asked for
     bool adaptive_dt = false;
     double duration = 0;
     double max_speed = 1; // m/s: expected largest impact speed, for t_c of the viscoelastic law
@@ -206,6 +207,21 @@ struct Md {
     LeverArm lever_arm = LeverArm::undeformed;
     bool freeze = false;      // steps over grains at rest
     bool orientation = false; // 3D: follows the orientations of the grains
+};
+
+// Limits of one error that a run watches; 0: none.
+struct WatchLimit {
+    bool asked = false; // measured and logged
+    double warn = 0, stop = 0;
+};
+
+// The errors that a run of grains watches of itself (docs/physics.md 14).
+struct Watch {
+    WatchLimit overlap;       // of the smaller radius
+    WatchLimit energy;        // of the balance of energy
+    WatchLimit momentum;      // of the balance of momentum
+    WatchLimit step;          // of a collision, by halving the step
+    std::int64_t sample = 64; // contacts that `step` looks at
 };
 
 enum class Axis { x, y, z };
@@ -271,6 +287,7 @@ struct Scene {
     std::vector<Species> species;
     std::vector<GasPair> gas_pairs;
     Edmd edmd;
+    Watch watch;
     std::vector<AnalysisSpec> analyses;
     Output output;
 };

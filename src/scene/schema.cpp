@@ -206,11 +206,17 @@ const Table<Md>& md_table() {
                 "steps over regions in which nothing moves to the last bit; changes no result. With lists of "
                 "pairs and without shear_rate")
             .choice("tangential", &Md::tangential, tangential_choices(), "tangential force")
-            .choice("integrator", &Md::integrator, {"gear4", "gear5", "gear6", "velocity-verlet"},
-                    "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet")
+            .choice("integrator", &Md::integrator, {"auto", "gear4", "gear5", "gear6", "velocity-verlet"},
+                    "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet; \"auto\": gear5, or "
+                    "chosen by accuracy")
             .choice("neighbours", &Md::neighbours, neighbour_choices(), "pair finding")
             .number("dt", &Md::dt, Unit::time, not_negative(),
-                    "time step; 0: chosen from the stiffest contact (t_c/50)")
+                    "time step; 0: chosen from the stiffest contact (t_c/50), or by accuracy")
+            .number(
+                "accuracy", &Md::accuracy, Unit::none, between(0, 0.1),
+                "largest error of a collision at max_speed, of its restitution coefficient (relative) and "
+                "of its energy (of that of the impact): integrator and time step are the cheapest that "
+                "meet it; 1e-8 or more, 0: not asked for")
             .flag("adaptive_dt", &Md::adaptive_dt,
                   "the time step follows the stiffest contact, from dt/4 to 4 dt, chosen every 256 steps or "
                   "so; steps are counted in twelfths of dt")

@@ -125,6 +125,7 @@ const Table<Species>& species_table();
 const Table<GasPair>& gas_pair_table();
 const Table<Edmd>& edmd_table();
 const Table<CurvedWall>& curved_wall_table();
+const Table<Watch>& watch_table();
 const Table<AnalysisSpec>& analysis_table();
 const Table<Output>& output_table();
 const Table<Scene>& scene_table(); // the keys outside any table
@@ -138,5 +139,8 @@ const Table<Scene>& scene_table(); // the keys outside any table
 void validate(const Scene& scene, const std::string& file);
 #define ENGINE(choice, name, what) void validate_##choice(const Scene& scene, const std::string& file);
 #include "scene/engines.def"
+// Of md.accuracy, and of [watch].
+void check_accuracy(const Scene& scene, const std::string& file);
+void check_watch(const Scene& scene, const std::string& file);
 
 } // namespace sandlane::scene

@@ -367,6 +367,8 @@ void validate_md(const Scene& scene, const std::string& file) {
     v.check_domain();
     v.check_method();
     v.check_sheared_cell();
+    check_accuracy(scene, file);
+    check_watch(scene, file);
     v.check_materials();
     v.check_sinks();
     for (std::size_t n = 0; n < scene.grains.size(); ++n)

@@ -288,6 +288,7 @@ void validate_edmd(const Scene& scene, const std::string& file) {
     v.check_gas(scene.domain.dimension == 3 ? 0.7405 : 0.9069, "the closest packing");
     for (std::size_t n = 0; n < scene.sides.size(); ++n) v.check_side(n);
     v.check_edmd();
+    check_watch(scene, file);
 }
 
 void validate_dsmc(const Scene& scene, const std::string& file) {
@@ -299,6 +300,7 @@ void validate_dsmc(const Scene& scene, const std::string& file) {
     v.check_sheared_gas();
     v.check_mixture(16);
     v.check_dsmc();
+    check_watch(scene, file);
 }
 
 } // namespace sandlane::scene

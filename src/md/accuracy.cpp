@@ -1,0 +1,219 @@
+#include "md/accuracy.hpp"
+
+#include "core/error.hpp"
+#include "md/collision_error.hpp"
+#include "md/law_traits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sandlane::md {
+
+using scene::Integrator;
+using scene::Scene;
+
+namespace {
+
+// ns per particle-step, linear dashpot with friction and viscoelastic: `tools/bench accuracy`, "Cost of a
+// step". Only ratios count. The cheapest come first: what cannot be cheaper than they are need not be tried.
+struct Row {
+    Integrator integrator;
+    double linear, hertz;
+};
+constexpr Row rows[] = {
+    {Integrator::velocity_verlet, 5.2, 5.7},
+    {Integrator::gear4, 5.6, 6.1},
+    {Integrator::gear5, 6.1, 6.1},
+    {Integrator::gear6, 8.3, 8.3},
+};
+
+constexpr double shortest_step = 1.0 / 30000; // of the shortest contact
+constexpr double stride = 1.15;               // from one step of the scan to the next
+
+struct Case {
+    Impact impact;
+    double exact; // restitution coefficient
+};
+
+class Cases {
+public:
+    Cases(const Scene& scene, const Needs& needs) : normal_(static_cast<int>(scene.md.normal)) {
+        struct Body {
+            double mass, radius;
+        };
+        std::vector<Body> bodies = {{0.5 * needs.mass_min, 0.5 * needs.radius_min}};
+        const bool various = needs.mass_max > needs.mass_min || needs.many_radii;
+        if (various) bodies.push_back({0.5 * needs.mass_max, 0.5 * needs.radius_max});
+        if (needs.walls) bodies.push_back({needs.mass_min, needs.radius_min});
+        if (needs.walls && various) bodies.push_back({needs.mass_max, needs.radius_max});
+        const std::vector<double> table = pair_table(scene);
+        const std::size_t materials = scene.materials.size();
+        for (std::size_t a = 0; a < materials; ++a)
+            for (std::size_t b = a; b < materials; ++b)
+                for (const Body& body : bodies)
+                    for (const double part : {1.0, 0.1})
+                        add(make_impact(normal_,
+                                        laws::coefficients_from<double>(
+                                            table.data() + (a * materials + b) * laws::pair_coefficients),
+                                        body.mass, body.radius, part * scene.md.max_speed));
+    }
+
+    [[nodiscard]] double shortest() const { return shortest_; }
+
+    // The largest error of all; cases that were the worst come first from then on.
+    double error(int order, double dt, double enough) {
+        double worst = 0;
+        for (std::size_t n = 0; n < cases_.size(); ++n) {
+            const double error = largest(cases_[n], order, dt);
+            if (error > worst && n > 0) std::swap(cases_[0], cases_[n]);
+            worst = std::max(worst, error);
+            if (!(worst <= enough)) return worst;
+        }
+        return worst;
+    }
+
+private:
+    void add(const Impact& impact) {
+        const double exact = exact_restitution(normal_, impact);
+        shortest_ = std::min(shortest_, impact.time);
+        cases_.push_back({impact, exact});
+    }
+
+    // Over a quarter, half and three quarters of a step more per contact.
+    [[nodiscard]] double largest(const Case& c, int order, double dt) const {
+        const double steps = c.impact.time / dt;
+        double worst = 0;
+        for (const double more : {0.0, 0.25, 0.5, 0.75})
+            worst = std::max(worst,
+                             collision_error(normal_, order, c.impact, c.exact, dt * steps / (steps + more)));
+        return worst;
+    }
+
+    int normal_;
+    std::vector<Case> cases_;
+    double shortest_ = std::numeric_limits<double>::infinity();
+};
+
+const Row& row_of(Integrator integrator) {
+    return *std::find_if(std::begin(rows), std::end(rows),
+                         [&](const Row& r) { return r.integrator == integrator; });
+}
+
+double cost_of(const Scene& scene, const Row& row) {
+    const bool hertz = with_normal_law(static_cast<int>(scene.md.normal),
+                                       []<class Law>(Type<Law>) { return Law::needs_radius; });
+    return hertz ? row.hertz : row.linear;
+}
+
+// Steps that dense packings and the guards of a run bear (docs/physics.md 8).
+double longest_step(Scene scene, const Needs& needs, Integrator integrator) {
+    scene.md.integrator = integrator;
+    return std::min(0.25 * derive(scene, needs).critical_dt, 0.05 * needs.radius_min / scene.md.max_speed);
+}
+
+// Three digits, not more than x: no library's rounding is seen in it.
+double rounded_down(double x) {
+    const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
+    return std::floor(x / unit) * unit;
+}
+
+// The longest step that meets the target, as two shorter ones of the scan do; up to a hundredth.
+Candidate search(const Scene& scene, const Needs& needs, Cases& cases, const Row& row, double most_cost) {
+    const double target = scene.md.accuracy, cost = cost_of(scene, row);
+    const int order = order_of(row.integrator);
+    const auto meets = [&](double dt) { return cases.error(order, dt, target) <= target; };
+    const double longest = longest_step(scene, needs, row.integrator);
+    const double least = std::max(shortest_step * cases.shortest(), cost * cases.shortest() / most_cost);
+    double good = 0, bad = 0;
+    int in_a_row = 0;
+    for (double dt = longest; dt >= least && in_a_row < 3; dt /= stride) {
+        if (!meets(dt)) {
+            bad = dt;
+            in_a_row = 0;
+        } else if (in_a_row++ == 0) {
+            good = dt;
+        }
+    }
+    if (in_a_row == 0) return {row.integrator, 0, 0, 0};
+    while (bad > 1.01 * good) {
+        const double middle = std::sqrt(good * bad);
+        (meets(middle) ? good : bad) = middle;
+    }
+    double dt = rounded_down(good);
+    while (!meets(dt)) dt = rounded_down(0.99 * dt);
+    return {row.integrator, dt, cases.error(order, dt, std::numeric_limits<double>::infinity()),
+            cost * cases.shortest() / dt};
+}
+
+[[noreturn]] void fail_unreachable(const Scene& scene, const Needs& needs, Cases& cases) {
+    double reached = std::numeric_limits<double>::infinity();
+    for (const Row& row : rows) {
+        const double dt =
+            std::min(longest_step(scene, needs, row.integrator), shortest_step * cases.shortest());
+        reached = std::min(
+            reached, cases.error(order_of(row.integrator), dt, std::numeric_limits<double>::infinity()));
+    }
+    fail(Exit::invalid_input,
+         "md.accuracy = {}: no integrator meets it with up to {:.0f} steps in a contact; the best error with "
+         "so many is {:.2g}. Allowed here: about {:.2g} to 0.1",
+         scene.md.accuracy, 1 / shortest_step, reached, 1.3 * reached);
+}
+
+void explain(const Scene& scene, AccuracyChoice& choice) {
+    const auto text = [&](const Candidate& c) {
+        return fmt::format("{}, dt = {:.3g} s = t_c/{:.4g}, error {:.2g}, {:.3g} ns per grain and t_c",
+                           integrator_name(c.integrator), c.dt, choice.contact_time / c.dt, c.error, c.cost);
+    };
+    choice.reasons.push_back(
+        fmt::format("accuracy: {} asked for; cheapest: {}", scene.md.accuracy, text(choice.best)));
+    for (const Candidate& c : choice.all)
+        if (c.integrator != choice.best.integrator)
+            choice.reasons.push_back(
+                "accuracy: not " +
+                (c.dt > 0 ? text(c) : std::string(integrator_name(c.integrator)) + ", it would cost more"));
+    choice.reasons.emplace_back("accuracy: double precision, the only one of this engine");
+}
+
+} // namespace
+
+double step_cost(const Scene& scene, Integrator integrator) {
+    return cost_of(scene, row_of(integrator));
+}
+
+double scene_error(const Scene& scene, const Needs& needs, Integrator integrator, double dt, double enough) {
+    return Cases(scene, needs).error(order_of(integrator), dt, enough);
+}
+
+AccuracyChoice choose_by_accuracy(const Scene& scene, const Needs& needs) {
+    const std::size_t grains = needs.grains + needs.poured;
+    if (grains == 0 || (grains == 1 && !needs.walls))
+        fail(
+            Exit::invalid_input,
+            "md.accuracy = {}: there are no contacts with {} and no wall, of which it is the error; leave it "
+            "out",
+            scene.md.accuracy, grains == 0 ? "no grain" : "one grain");
+    Cases cases(scene, needs);
+    AccuracyChoice choice;
+    choice.contact_time = cases.shortest();
+    choice.best.cost = std::numeric_limits<double>::infinity();
+    for (const Row& row : rows) {
+        choice.all.push_back(search(scene, needs, cases, row, choice.best.cost));
+        const Candidate& found = choice.all.back();
+        if (found.dt > 0 && found.cost < choice.best.cost) choice.best = found;
+    }
+    if (!(choice.best.dt > 0)) fail_unreachable(scene, needs, cases);
+    explain(scene, choice);
+    return choice;
+}
+
+Scene with_choice(const Scene& scene, const AccuracyChoice& choice) {
+    Scene chosen = scene;
+    chosen.md.integrator = choice.best.integrator;
+    chosen.md.dt = choice.best.dt;
+    return chosen;
+}
+
+} // namespace sandlane::md
