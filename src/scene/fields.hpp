@@ -112,12 +112,13 @@ Table<T>& Table<T>::vectors(std::string name, std::vector<Vec> T::*member, Unit 
 template <class T>
 template <class E>
 Table<T>& Table<T>::choice(std::string name, E T::*member, const Choices& choices, std::string doc) {
-    return custom(
-        {std::move(name), choice_type(choices), "", "", std::move(doc), false,
-         [=](T& t, const Value& v, const std::string& path, std::int64_t) {
-             t.*member = static_cast<E>(read_choice(v, path, choices));
-         },
-         [=](const T& t, std::int64_t) { return scene::quoted(choices[static_cast<std::size_t>(t.*member)]); }});
+    return custom({std::move(name), choice_type(choices), "", "", std::move(doc), false,
+                   [=](T& t, const Value& v, const std::string& path, std::int64_t) {
+                       t.*member = static_cast<E>(read_choice(v, path, choices));
+                   },
+                   [=](const T& t, std::int64_t) {
+                       return scene::quoted(choices[static_cast<std::size_t>(t.*member)]);
+                   }});
 }
 template <class T>
 template <class E>
