@@ -236,7 +236,7 @@ private:
     bool ended_ = false; // nothing is left to happen until the end
     EdmdLog log_;
     Watcher watcher_;
-    std::vector<GasTotals> start_; // of each
+    std::vector<GasTotals> start_;                 // of each
     std::vector<std::vector<edmd::Event>> events_; // of each, since they were taken the last time
 };
 
