@@ -3,6 +3,7 @@
 // src/edmd/reference.
 #pragma once
 
+#include "core/real.hpp"
 #include "simd/tables.hpp"
 
 #include <cstdint>
@@ -23,7 +24,7 @@ struct HardState {
 };
 inline constexpr std::uint64_t image_zero = 0x4000, image_mask = 0xffff;
 inline constexpr std::int64_t most_images = 0x1fff; // of a particle between two events
-[[nodiscard]] inline std::int64_t image_of(const HardState& s, int d) {
+[[nodiscard]] SANDLANE_INLINE std::int64_t image_of(const HardState& s, int d) {
     return static_cast<std::int64_t>((s.word >> 16 * d) & image_mask) - static_cast<std::int64_t>(image_zero);
 }
 
@@ -84,12 +85,12 @@ struct HardSearch {
 struct FacingColumns {
     std::int64_t from, to;
 };
-[[nodiscard]] inline FacingColumns facing_columns(const HardSearch& view, std::int64_t up) {
+[[nodiscard]] SANDLANE_INLINE FacingColumns facing_columns(const HardSearch& view, std::int64_t up) {
     return up > 0 ? FacingColumns{-2 - view.columns, 1 - view.columns}
                   : FacingColumns{-1 + view.columns, 2 + view.columns};
 }
 // Of a box so many columns wide: which box a column is in.
-[[nodiscard]] inline std::int64_t box_of(std::int64_t column, std::int64_t count) {
+[[nodiscard]] SANDLANE_INLINE std::int64_t box_of(std::int64_t column, std::int64_t count) {
     return column >= 0 ? column / count : -((count - 1 - column) / count);
 }
 
