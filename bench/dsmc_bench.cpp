@@ -115,6 +115,9 @@ void add_all() {
         s.enskog = true;
         add("spheres+enskog", n, s);
         s = hard_spheres(n);
+        s.partners = 5;
+        add("spheres+near", n, s);
+        s = hard_spheres(n);
         s.kicks = 1e-9;
         add("spheres+kicks", n, s);
         s = hard_spheres(n);

@@ -151,13 +151,46 @@ SANDLANE_INLINE void tell(const GasCollisionView& view, const std::uint64_t (&of
                                 identity(offsets[1][l]), (accepted >> l & 1u) != 0});
 }
 
+// Number of the partner that is nearest to i: of j and of more that are drawn, the first of equal ones.
+template <class Arch>
+SANDLANE_INLINE Words<Arch> nearest_partner(const GasCollisionView& view, const PhiloxLanes<Arch>& draw,
+                                            const Words<Arch>& begin, const Words<Arch>& size,
+                                            const Words<Arch>& i, const Words<Arch>& j) {
+    using R = Block<Arch>;
+    using W = Words<Arch>;
+    const auto place_of = [&](const W& n, R(&x)[gas_row]) {
+        alignas(64) std::uint64_t offset[width];
+        left<5>(n + begin).store(offset);
+        gather_rows(view.rows.place, offset, x);
+    };
+    R own[gas_row];
+    place_of(i, own);
+    const auto square_to = [&](const W& n) {
+        R other[gas_row], sum(0.0);
+        place_of(n, other);
+        for (int d = 0; d < 3; ++d)
+            sum = sum + R(view.near_axis[d]) * ((own[d] - other[d]) * (own[d] - other[d]));
+        return sum;
+    };
+    R square = square_to(j), best = block_of(j);
+    for (std::int32_t n = 1; n < view.partners; ++n) {
+        W other = right<32>(product(draw.w[n - 1], size - W(1)));
+        other = other + W(1) - right<63>(other - i);
+        const R apart = square_to(other);
+        const auto nearer = apart < square;
+        square = select(nearer, apart, square);
+        best = select(nearer, block_of(other), best);
+    }
+    return words_of(best);
+}
+
 // Candidate k of the listed cells: appends the accepted pairs to their lists and keeps the cells that have
 // more candidates; returns the number of either.
 struct Chosen {
     std::int32_t accepted, left;
 };
-template <class Arch, int dimension, bool mixed, bool heard>
-SANDLANE_INLINE Chosen choose_pairs(const GasCollisionView& view, const Philox& random,
+template <class Arch, int dimension, bool mixed, bool heard, bool near>
+SANDLANE_INLINE Chosen choose_pairs(const GasCollisionView& view, const Philox& random, const Philox& more,
                                     const CandidateLists& lists, std::int32_t active, std::uint32_t k,
                                     GasCollisions& result) {
     using R = Block<Arch>;
@@ -177,6 +210,7 @@ SANDLANE_INLINE Chosen choose_pairs(const GasCollisionView& view, const Philox& 
         const W i = right<32>(product(draw.w[0], size));
         W j = right<32>(product(draw.w[1], size - W(1)));
         j = j + W(1) - right<63>(j - i); // the sign bit says j < i
+        if constexpr (near) j = nearest_partner<Arch>(view, more(number), begin, size, i, j);
         const W first = left<5>(i + begin), second = left<5>(j + begin);
         static_assert(gas_row * sizeof(double) == 1 << 5);
         alignas(64) std::uint64_t offsets[2][width];
@@ -302,10 +336,20 @@ GasCollisions collide_gas(const GasCollisionView& given) {
     for (std::uint32_t k = 0; active > 0; ++k) {
         result.candidates += active;
         const Philox draws = random(k, GasStream::candidate);
-        const Chosen chosen =
-            view.listener.hear == nullptr
-                ? choose_pairs<Arch, dimension, mixed, false>(view, draws, lists, active, k, result)
-                : choose_pairs<Arch, dimension, mixed, true>(view, draws, lists, active, k, result);
+        const bool heard = view.listener.hear != nullptr;
+        Chosen chosen;
+        if (view.partners > 1) {
+            const Philox more = random(k, GasStream::partner);
+            chosen = heard ? choose_pairs<Arch, dimension, mixed, true, true>(view, draws, more, lists,
+                                                                              active, k, result)
+                           : choose_pairs<Arch, dimension, mixed, false, true>(view, draws, more, lists,
+                                                                               active, k, result);
+        } else {
+            chosen = heard ? choose_pairs<Arch, dimension, mixed, true, false>(view, draws, draws, lists,
+                                                                               active, k, result)
+                           : choose_pairs<Arch, dimension, mixed, false, false>(view, draws, draws, lists,
+                                                                                active, k, result);
+        }
         const Philox geometry = random(k, GasStream::geometry);
         for (int l = 0; l < width; ++l) { // behind the last one anything valid
             lists.first[chosen.accepted + l] = lists.first[0];

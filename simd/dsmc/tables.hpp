@@ -45,6 +45,7 @@ enum class GasStream : std::uint32_t {
     kick = 3,      // of the thermostat: (block, id, step)
     wall = 4,      // (4 hit + block, id, step)
     start = 5,     // (block, id, 0)
+    partner = 6,   // of candidate k, more that are looked at
 };
 
 // Key and step of random numbers; steps have 56 bits, the upper 24 stand beside the stream.
@@ -108,9 +109,14 @@ struct GasCollisionView {
     // Rough particles: eps_t, m_t/m_eff = q/(1 + q), radius, q, and friction (0: none) that bounds eps_t.
     double tangential, mass_ratio, radius, inertia, friction;
     const GasMixture* mixture; // null: all particles are equal
+    // Of so many partners drawn at random, up to most_partners, the nearest one is taken; distances are those
+    // along directions with more than one cell, 1 against 0.
+    std::int32_t partners;
+    double near_axis[3];
     GasRandom random;
     GasListener listener;
 };
+inline constexpr std::int32_t most_partners = 5;
 inline constexpr double most_candidates = 1e6; // of a cell in a step
 struct GasCollisions {
     std::int64_t candidates = 0, collisions = 0;

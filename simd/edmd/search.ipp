@@ -14,8 +14,8 @@ namespace sandlane::simd {
 // Cells next to each other in one direction, and the faces of the box between (1 in the field of the
 // direction, with the bias of images).
 struct CellRun {
-    std::int64_t offset[3];
-    std::uint64_t faces[3];
+    std::int64_t offset[4];
+    std::uint64_t faces[4];
     int size = 0;
 };
 SANDLANE_INLINE void add_cell(CellRun& run, std::int64_t at, std::int64_t count, bool periodic,
@@ -34,6 +34,21 @@ SANDLANE_INLINE void add_cell(CellRun& run, std::int64_t at, std::int64_t count,
     run.faces[run.size++] = faces << shift;
 }
 
+// The cells of a row beyond a side of a sheared gas that face a cell, or the one that came last when a
+// particle has moved one up or down along it.
+SANDLANE_INLINE CellRun cells_beyond(const HardSearch& view, std::int64_t at, std::int64_t up, int layer) {
+    FacingColumns facing = facing_columns(view, up);
+    if (layer == 0) facing.to = facing.from;
+    if (layer == 1) facing.from = facing.to;
+    CellRun run;
+    for (std::int64_t k = at + facing.from; k <= at + facing.to; ++k) {
+        const std::int64_t box = box_of(k, view.count[0]);
+        run.offset[run.size] = k - box * view.count[0];
+        run.faces[run.size++] = image_zero + static_cast<std::uint64_t>(box);
+    }
+    return run;
+}
+
 // The candidates: their numbers, and the faces of the box between, which are not listed where there are none.
 struct Candidates {
     static constexpr int room = 256;
@@ -41,7 +56,7 @@ struct Candidates {
     std::uint64_t faces[room + width];
 };
 
-template <class Arch, int dimension, bool general, bool grows> class NearSearch {
+template <class Arch, int dimension, bool general, bool grows, bool sheared> class NearSearch {
     using B = Block<Arch>;
     using W = Words<Arch>;
 
@@ -113,15 +128,25 @@ private:
             run[2].faces[0] = 0;
             run[2].size = 1;
         }
+        CellRun below, above; // in rows beyond the sides
+        if constexpr (sheared) {
+            below = cells_beyond(view_, e.cell[0], -1, layer);
+            above = cells_beyond(view_, e.cell[0], 1, layer);
+        }
         Candidates c;
         int size = 0;
         for (int z = 0; z < run[2].size; ++z)
             for (int y = 0; y < run[1].size; ++y) {
                 const std::int64_t line = run[2].offset[z] + run[1].offset[y];
                 const std::uint64_t faces = run[2].faces[z] + run[1].faces[y];
-                for (int x = 0; x < run[0].size; ++x)
-                    size = put_cell<true>(c, size, view_.cells + line + run[0].offset[x],
-                                          faces + run[0].faces[x]);
+                const CellRun* row = &run[0];
+                if constexpr (sheared) {
+                    if (run[1].faces[y] < image_zero << 16) row = &below;
+                    if (run[1].faces[y] > image_zero << 16) row = &above;
+                }
+                for (int x = 0; x < row->size; ++x)
+                    size =
+                        put_cell<true>(c, size, view_.cells + line + row->offset[x], faces + row->faces[x]);
             }
         predict<true>(c, size);
     }
@@ -145,7 +170,7 @@ private:
 
     template <bool across> SANDLANE_INLINE void predict(Candidates& c, int n) {
         // Lanes beyond the last one are the particle itself, which does not approach itself.
-        if constexpr (across) W(0).store(c.faces + n);
+        if constexpr (across) W(no_faces).store(c.faces + n);
         for (int l = 0; l < width; ++l) c.particle[n + l] = i_;
         for (int k = 0; k < n; k += width) block(c.particle + k, across ? W::load(c.faces + k) : W(no_faces));
     }
@@ -161,6 +186,8 @@ private:
         // from the next.
         const W difference = (W(images_) + faces) - words_of(field[7]);
         Vector<B> shift;
+        [[maybe_unused]] B turns(0.0);
+        if constexpr (sheared) turns = boxes<1>(difference);
         shift.x = image<0>(difference);
         shift.y = image<1>(difference);
         if constexpr (dimension == 3) shift.z = image<2>(difference);
@@ -176,6 +203,9 @@ private:
         if constexpr (grows)
             time = laws::growing_pair_time<dimension, B>(me_, other, shift, reach, B(view_.scale),
                                                          B(view_.growth), B(never_meets));
+        else if constexpr (sheared)
+            time = laws::sheared_pair_time<dimension, B>(me_, other, shift, turns, reach, B(view_.offset),
+                                                         B(view_.speed), B(never_meets));
         else
             time = laws::pair_time<dimension, general, B>(me_, other, shift, reach, gravity, B(never_meets));
         const unsigned meets = bits(time < B(never_meets));
@@ -190,12 +220,14 @@ private:
         }
     }
 
-    template <int d> SANDLANE_INLINE B image(const W& difference) const {
+    template <int d> SANDLANE_INLINE B boxes(const W& difference) const {
         const W field = right<16 * d>(difference) & W(image_mask);
         // As a number, less the bias: exact.
-        const B k = block_of(field ^ W(std::bit_cast<std::uint64_t>(0x1p52))) -
-                    B(0x1p52 + static_cast<double>(image_zero));
-        return k * B(view_.length[d]);
+        return block_of(field ^ W(std::bit_cast<std::uint64_t>(0x1p52))) -
+               B(0x1p52 + static_cast<double>(image_zero));
+    }
+    template <int d> SANDLANE_INLINE B image(const W& difference) const {
+        return boxes<d>(difference) * B(view_.length[d]);
     }
 
     const HardSearch& view_;
@@ -206,10 +238,10 @@ private:
     double radius_;
 };
 
-template <class Arch, int dimension, bool general, bool grows = false>
+template <class Arch, int dimension, bool general, bool grows = false, bool sheared = false>
 void search_near(const HardSearch& view, std::uint32_t i, int layer, std::uint32_t excluded,
                  HardFound& found) {
-    NearSearch<Arch, dimension, general, grows>(view, i, excluded, found).all(layer);
+    NearSearch<Arch, dimension, general, grows, sheared>(view, i, excluded, found).all(layer);
 }
 
 } // namespace sandlane::simd

@@ -3,6 +3,7 @@
 // src/edmd/reference.
 #pragma once
 
+#include "core/real.hpp"
 #include "simd/tables.hpp"
 
 #include <cstdint>
@@ -23,6 +24,9 @@ struct HardState {
 };
 inline constexpr std::uint64_t image_zero = 0x4000, image_mask = 0xffff;
 inline constexpr std::int64_t most_images = 0x1fff; // of a particle between two events
+[[nodiscard]] SANDLANE_INLINE std::int64_t image_of(const HardState& s, int d) {
+    return static_cast<std::int64_t>((s.word >> 16 * d) & image_mask) - static_cast<std::int64_t>(image_zero);
+}
 
 // What a particle does next.
 struct HardEvents {
@@ -71,7 +75,24 @@ struct HardSearch {
     const double* radius; // of the classes
     double gravity[3];
     double scale, growth; // of the radii
+    // Of a sheared gas: the box above is offset + speed t further along x, by so many whole cells now.
+    double offset, speed;
+    std::int64_t columns;
 };
+
+// Columns that a cell may touch in a row beyond a side of a sheared gas, which stands `columns` cells and a
+// part of one further along x: from this one to that, as seen from its own.
+struct FacingColumns {
+    std::int64_t from, to;
+};
+[[nodiscard]] SANDLANE_INLINE FacingColumns facing_columns(const HardSearch& view, std::int64_t up) {
+    return up > 0 ? FacingColumns{-2 - view.columns, 1 - view.columns}
+                  : FacingColumns{-1 + view.columns, 2 + view.columns};
+}
+// Of a box so many columns wide: which box a column is in.
+[[nodiscard]] SANDLANE_INLINE std::int64_t box_of(std::int64_t column, std::int64_t count) {
+    return column >= 0 ? column / count : -((count - 1 - column) / count);
+}
 
 struct HardFound {
     double first_time, second_time;
@@ -89,6 +110,7 @@ struct EdmdKernels {
     HardSearchNear plain[2];   // [space] particles of one radius, without gravity
     HardSearchNear general[2]; // [space]
     HardSearchNear growing[2]; // [space] radii grow; without gravity
+    HardSearchNear sheared[2]; // [space] boxes above and below glide along x; without gravity
 };
 [[nodiscard]] const EdmdKernels& edmd_kernels(Isa isa);
 

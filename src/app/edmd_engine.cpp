@@ -1,5 +1,5 @@
 // Event-driven dynamics as an engine of the program. A step is an event.
-#include "analysis/gas_mixture.hpp"
+#include "app/edmd_log.hpp"
 #include "app/gas_engine.hpp"
 #include "app/gas_recorder.hpp"
 #include "app/gas_watch.hpp"
@@ -36,36 +36,27 @@ std::vector<Difference> differences(const std::vector<edmd::Particle>& a,
     return found;
 }
 
-// What theory knows the temperatures of: smooth particles of several kinds, constant restitution, nothing
-// else. Empty: something else.
-analysis::MixtureGas mixture_of(const edmd::Plan& plan) {
-    const edmd::Setup& s = plan.setup;
-    analysis::MixtureGas gas;
-    if (s.classes.size() == 1 || s.rough || s.has_walls() || s.falls() ||
-        s.restitution.model != laws::Restitution::Model::constant)
-        return gas;
-    gas.dimension = s.dimension;
-    gas.dense = true;
-    gas.kicks = s.kicks;
-    for (std::size_t k = 0; k < s.classes.size(); ++k)
-        gas.kinds.push_back({plan.amounts[k] / s.volume(), s.classes[k].mass, 2 * s.classes[k].radius});
-    gas.restitution.assign(gas.size() * gas.size(), s.restitution);
-    return gas;
+// Of all replicas, one after the other.
+std::vector<edmd::Particle> all_particles(const edmd::Ensemble& runs) {
+    std::vector<edmd::Particle> all;
+    for (std::size_t n = 0; n < runs.size(); ++n)
+        for (edmd::Particle& p : runs[n].particles()) {
+            p.id += static_cast<std::uint32_t>(n * runs.first().size());
+            all.push_back(p);
+        }
+    return all;
 }
-
-// Sums at the last row of the log, from which the next row takes rates.
-struct Mark {
-    double time = 0, virial = 0, temperature = 0;
-    std::int64_t collisions = 0;
-};
 
 class EdmdEngine final : public GasEngine {
 public:
     EdmdEngine(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const edmd::Plan> plan,
                simd::Isa isa)
         : scene_(std::move(scene)), plan_(std::move(plan)), isa_(isa),
-          run_(edmd::start(*scene_, *plan_, isa)), mixture_(mixture_of(*plan_)), watcher_(scene_->watch),
-          start_(totals(edmd::observe(plan_->setup, run_->particles()))) {}
+          runs_(edmd::start_all(*scene_, *plan_, isa)), log_(*plan_, scene_->gas.temperature),
+          watcher_(scene_->watch), events_(runs_.size()) {
+        for (std::size_t n = 0; n < runs_.size(); ++n)
+            start_.push_back(totals(n, edmd::observe(plan_->setup, runs_[n].particles())));
+    }
 
     [[nodiscard]] const Words& words() const override {
         static const Words words{"particle", "particles", "particles", "events", "events", "s"};
@@ -79,10 +70,10 @@ public:
     void run_until(std::int64_t steps, double until) override {
         const double end =
             scene_->edmd.duration > 0 ? scene_->edmd.duration : std::numeric_limits<double>::infinity();
-        if (run_->run(steps, std::min(end, until)) < steps && end <= until) ended_ = true;
+        if (runs_.run(steps, std::min(end, until)) < steps && end <= until) ended_ = true;
     }
     [[nodiscard]] std::int64_t step() const override {
-        return static_cast<std::int64_t>(run_->log().count());
+        return static_cast<std::int64_t>(runs_.first().log().count());
     }
     [[nodiscard]] std::int64_t steps() const override {
         return scene_->edmd.events > 0 ? scene_->edmd.events : std::numeric_limits<std::int64_t>::max();
@@ -91,8 +82,10 @@ public:
         return static_cast<std::int64_t>(std::min(plan_->events, 9e18));
     }
     [[nodiscard]] bool finished() const override { return ended_; }
-    [[nodiscard]] double work(std::int64_t steps) const override { return static_cast<double>(steps); }
-    [[nodiscard]] double time() const override { return run_->time(); }
+    [[nodiscard]] double work(std::int64_t steps) const override {
+        return static_cast<double>(steps) * static_cast<double>(runs_.size()); // about
+    }
+    [[nodiscard]] double time() const override { return runs_.first().time(); }
     // Intervals that the scene does not give are parts of its duration, or else of its events.
     [[nodiscard]] Pace pace(bool asked) const override {
         using scene::EventSpacing;
@@ -105,37 +98,35 @@ public:
     // On the average, where intervals are counted in events.
     [[nodiscard]] double time_step() const override { return plan_->duration / plan_->events; }
     [[nodiscard]] double duration() const override { return plan_->duration; }
-    [[nodiscard]] std::size_t size() const override { return run_->size(); }
+    [[nodiscard]] std::size_t size() const override { return runs_.first().size(); }
 
-    [[nodiscard]] Hash128 state_hash() const override { return run_->state_hash(); }
+    [[nodiscard]] Hash128 state_hash() const override { return runs_.state_hash(); }
     void serialise(ByteWriter& out) const override {
-        out.put_array(&mark_, 1);
+        log_.serialise(out);
         watcher_.serialise(out);
-        out.put_text(run_->serialise());
+        out.put_text(runs_.serialise());
     }
     void restore(const std::string& state, const std::string& origin) override {
         try {
             ByteReader in(state);
-            std::vector<Mark> mark;
-            in.get_array(mark);
-            if (mark.size() != 1) fail(Exit::io, "damaged state");
+            log_.restore(in);
             watcher_.restore(in);
-            run_->restore(in.get_text());
-            mark_ = mark[0];
+            runs_.restore(in.get_text());
         } catch (const Error& e) {
             fail(e.code(),
-                 "{}: {}. Overrides by --set must keep gas, species, domain, sides, cells and heating.",
+                 "{}: {}. Overrides by --set must keep gas, species, domain, sides, cells, heating and "
+                 "replicas.",
                  origin, e.what());
         }
     }
 
     [[nodiscard]] std::vector<Difference> compare_state(const Engine& other) const override {
-        return differences(run_->particles(), dynamic_cast<const EdmdEngine&>(other).run_->particles());
+        return differences(all_particles(runs_), all_particles(dynamic_cast<const EdmdEngine&>(other).runs_));
     }
     [[nodiscard]] std::vector<Difference> compare_kernels(simd::Isa first, simd::Isa second) const override {
         const auto after = [&](simd::Isa isa) {
             const std::unique_ptr<edmd::Algorithm> run = edmd::start(*scene_, *plan_, isa);
-            run->restore(run_->serialise());
+            run->restore(runs_.first().serialise());
             run->run(100);
             return run->particles();
         };
@@ -146,13 +137,17 @@ public:
     }
 
     bool keep_decisions() override {
-        run_->log().record(&events_);
+        for (std::size_t n = 0; n < runs_.size(); ++n) runs_[n].log().record(&events_[n]);
         return true;
     }
     [[nodiscard]] std::vector<Decision> take_decisions() override;
     [[nodiscard]] std::string tell(const Decision& decision) const override;
 
-    [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override;
+    [[nodiscard]] std::vector<analysis::LogColumn> log_columns() const override {
+        auto columns = log_.columns();
+        watcher_.add_columns(columns);
+        return columns;
+    }
     [[nodiscard]] std::vector<double> log_row() override;
     void judge() override { watcher_.judge(); }
     [[nodiscard]] std::vector<std::string> news() override {
@@ -177,7 +172,9 @@ public:
         for (const edmd::Class& c : plan_->setup.classes)
             ratio.push_back(
                 {c.mass / plan_->setup.classes[0].mass, c.moment() / plan_->setup.classes[0].moment()});
-        samples.add(run_->particles(), vessel(), [&](const edmd::Particle& p) { return ratio[p.kind]; });
+        for (std::size_t n = 0; n < runs_.size(); ++n)
+            samples.add(edmd::thermal_particles(plan_->setup, runs_[n].particles()), vessel(),
+                        [&](const edmd::Particle& p) { return ratio[p.kind]; });
     }
     [[nodiscard]] analysis::GasVessel vessel() const override {
         return edmd::vessel_of(plan_->setup, time());
@@ -196,7 +193,7 @@ public:
     }
     [[nodiscard]] std::vector<analysis::StructureParticle> structure_particles() const override {
         std::vector<analysis::StructureParticle> all;
-        for (const edmd::Particle& p : run_->particles()) {
+        for (const edmd::Particle& p : edmd::thermal_particles(plan_->setup, runs_.first().particles())) {
             const edmd::Class& c = plan_->setup.classes[p.kind];
             all.push_back({p.place, p.velocity, c.mass, c.radius});
         }
@@ -208,105 +205,77 @@ public:
                            plan_->setup.classes.size());
     }
     [[nodiscard]] std::string summary_json() const override {
-        const edmd::Tally& t = run_->tally();
+        const edmd::Tally t = tally();
         return fmt::format(R"("collisions": {}, "wall_hits": {}, "elastic": {}, "smallest_gap": {}, )"
                            R"("event_log_hash": "{:016x}", )",
                            t.collisions, t.wall_hits, t.elastic, json_number(t.smallest_gap),
-                           run_->log().hash()) +
+                           runs_.log_hash()) +
                watcher_.json();
     }
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> report_rows() const override;
 
 private:
-    [[nodiscard]] GasTotals totals(const edmd::Observables& o) const {
-        const edmd::Tally& t = run_->tally();
+    [[nodiscard]] GasTotals totals(std::size_t run, const edmd::Observables& o) const {
+        const edmd::Tally& t = runs_[run].tally();
         double mass = 0;
         for (std::size_t k = 0; k < plan_->amounts.size(); ++k)
             mass += static_cast<double>(plan_->amounts[k]) * plan_->setup.classes[k].mass;
         return {mass, o.energy, t.wall_energy, o.drift, -t.smallest_gap / plan_->setup.smallest_radius()};
     }
-    [[nodiscard]] bool guards() const {
-        return plan_->setup.contact_time > 0 || plan_->setup.elastic_speed > 0;
+    // Of all replicas.
+    [[nodiscard]] edmd::Tally tally() const {
+        edmd::Tally sum;
+        for (std::size_t n = 0; n < runs_.size(); ++n) sum.add(runs_[n].tally());
+        return sum;
     }
 
     std::shared_ptr<const scene::Scene> scene_;
     std::shared_ptr<const edmd::Plan> plan_;
     simd::Isa isa_;
-    std::unique_ptr<edmd::Algorithm> run_;
+    edmd::Ensemble runs_;
     bool ended_ = false; // nothing is left to happen until the end
-    Mark mark_;
-    analysis::MixtureGas mixture_; // no kinds: theory knows nothing
+    EdmdLog log_;
     Watcher watcher_;
-    GasTotals start_;
-    std::vector<edmd::Event> events_; // since they were taken the last time
+    std::vector<GasTotals> start_;                 // of each
+    std::vector<std::vector<edmd::Event>> events_; // of each, since they were taken the last time
 };
 
 std::vector<Decision> EdmdEngine::take_decisions() {
     std::vector<Decision> all;
-    std::int64_t number = step() - static_cast<std::int64_t>(events_.size());
-    for (const edmd::Event& e : events_)
-        all.push_back({++number, e.time, 0, 0, e.first, e.second, static_cast<std::uint32_t>(e.kind)});
-    events_.clear();
+    for (std::size_t n = 0; n < runs_.size(); ++n) {
+        auto number = static_cast<std::int64_t>(runs_[n].log().count() - events_[n].size());
+        for (const edmd::Event& e : events_[n])
+            all.push_back({++number, e.time, static_cast<std::uint32_t>(n), 0, e.first, e.second,
+                           static_cast<std::uint32_t>(e.kind)});
+        events_[n].clear();
+    }
     return all;
 }
 
 std::string EdmdEngine::tell(const Decision& d) const {
     const bool pair = d.outcome == static_cast<std::uint32_t>(edmd::Event::Kind::pair);
-    return fmt::format("event {} at {} s of its epoch: particle {} {}", d.step, d.time, d.first,
+    return fmt::format("{}event {} at {} s of its epoch: particle {} {}",
+                       runs_.size() > 1 ? fmt::format("replica {}, ", d.place) : "", d.step, d.time, d.first,
                        pair ? fmt::format("and particle {}", d.second)
                        : d.second > 5
                            ? fmt::format("at curved_walls[{}]", d.second - 6)
                            : fmt::format("at side {}{}", "-+"[d.second % 2], "xyz"[d.second / 2 % 3]));
 }
 
-std::vector<analysis::LogColumn> EdmdEngine::log_columns() const {
-    std::vector<analysis::LogColumn> columns = {{"time", "s"}, {"event", "1"}, {"temperature", "J"}};
-    const std::size_t classes = plan_->setup.classes.size();
-    for (std::size_t k = 0; k < classes && classes > 1; ++k)
-        columns.push_back({fmt::format("temperature_{}", k), "J"});
-    columns.insert(columns.end(), {{"a2", "1"}, {"energy", "J"}, {"wall_energy", "J"}});
-    for (int d = 0; d < plan_->setup.dimension; ++d)
-        columns.push_back({fmt::format("velocity_{}", "xyz"[d]), "m/s"});
-    if (plan_->setup.rough) columns.push_back({"spin_temperature", "J"});
-    if (plan_->homogeneous) columns.push_back({"theory_temperature", "J"});
-    for (std::size_t k = 0; k < mixture_.size(); ++k)
-        columns.push_back({fmt::format("theory_temperature_{}", k), "J"});
-    columns.insert(columns.end(),
-                   {{"collisions_per_particle", "1"}, {"collision_rate", "1/s"}, {"compressibility", "1"}});
-    if (guards()) columns.push_back({"elastic_collisions", "1"});
-    watcher_.add_columns(columns);
-    return columns;
-}
-
 std::vector<double> EdmdEngine::log_row() {
-    const edmd::Observables o = edmd::observe(plan_->setup, run_->particles());
-    const edmd::Tally& t = run_->tally();
-    const auto n = static_cast<double>(size());
-    std::vector<double> row = {time(), static_cast<double>(step()), o.temperature};
-    if (plan_->setup.classes.size() > 1) row.insert(row.end(), o.of_class.begin(), o.of_class.end());
-    row.insert(row.end(), {o.fourth, o.energy, t.wall_energy});
-    for (int d = 0; d < plan_->setup.dimension; ++d) row.push_back(o.drift[static_cast<std::size_t>(d)]);
-    if (plan_->setup.rough) row.push_back(o.spin_temperature);
-    if (plan_->homogeneous)
-        row.push_back(
-            analysis::cooling_curve(edmd::gas_of(*plan_), scene_->gas.temperature, {time()}).front());
-    if (mixture_.size() > 0) {
-        const auto of_kind = analysis::cooling_curves(mixture_, scene_->gas.temperature, {time()}).front();
-        row.insert(row.end(), of_kind.begin(), of_kind.end());
+    std::vector<edmd::Observables> seen;
+    analysis::Watched worst;
+    for (std::size_t n = 0; n < runs_.size(); ++n) {
+        seen.push_back(edmd::observe(plan_->setup, runs_[n].particles()));
+        const analysis::Watched w = watch_gas(start_[n], totals(n, seen[n]), time());
+        for (std::size_t q = 0; q < analysis::watched::count; ++q) {
+            worst.value[q] = std::max(worst.value[q], w.value[q]);
+            worst.time[q] = w.time[q];
+        }
     }
-    const double interval = time() - mark_.time;
-    const double rate =
-        interval > 0 ? 2 * static_cast<double>(t.collisions - mark_.collisions) / (n * interval) : 0;
-    // p/(n T) = 1 + sum of R_ij |P_n| / (d N T t), T in the middle of the interval.
-    const double mean = 0.5 * (o.temperature + mark_.temperature);
-    const double z = interval > 0 && mean > 0
-                         ? 1 + (t.virial - mark_.virial) / (plan_->setup.dimension * n * mean * interval)
-                         : 1;
-    row.insert(row.end(), {2 * static_cast<double>(t.collisions) / n, rate, z});
-    if (guards()) row.push_back(static_cast<double>(t.elastic));
-    watcher_.see(watch_gas(start_, totals(o), time()), step(), time());
+    std::vector<double> row = log_.row(runs_, seen);
+    watcher_.see(worst, step(), time());
     watcher_.add_row(row);
-    mark_ = {time(), t.virial, o.temperature, t.collisions};
     return row;
 }
 
@@ -314,7 +283,7 @@ analysis::Snapshot EdmdEngine::snapshot() const {
     analysis::Snapshot s = snapshot_of_box(*scene_);
     s.step = step();
     s.time = time();
-    for (const edmd::Particle& p : run_->particles()) {
+    for (const edmd::Particle& p : runs_.first().particles()) {
         const edmd::Class& c = plan_->setup.classes[p.kind];
         add_particle(s, p, c.radius, c.mass, static_cast<std::int32_t>(p.kind));
     }
@@ -322,8 +291,12 @@ analysis::Snapshot EdmdEngine::snapshot() const {
 }
 
 std::vector<std::pair<std::string, std::string>> EdmdEngine::report_rows() const {
-    const edmd::Observables o = edmd::observe(plan_->setup, run_->particles());
-    const edmd::Tally& t = run_->tally();
+    const edmd::Tally t = tally();
+    std::vector<double> temperature;
+    for (std::size_t n = 0; n < runs_.size(); ++n)
+        temperature.push_back(edmd::observe(plan_->setup, runs_[n].particles()).temperature);
+    const edmd::MeanError mean = edmd::mean_of(temperature);
+    const auto particles = static_cast<double>(size() * runs_.size());
     std::vector<std::pair<std::string, std::string>> rows;
     const analysis::HardGas gas = edmd::gas_of(*plan_);
     if (plan_->homogeneous && plan_->setup.kicks == 0 &&
@@ -333,15 +306,18 @@ std::vector<std::pair<std::string, std::string>> EdmdEngine::report_rows() const
         rows.push_back({"Critical length of vortices, of clusters",
                         fmt::format("{:.4g} m, {:.4g} m (dilute gas)", l.shear, l.cluster)});
     }
-    rows.insert(rows.begin(),
-                {{"Particles", std::to_string(size())},
-                 {"Simulated time", fmt::format("{:.4g} s", time())},
-                 {"Collisions", std::to_string(t.collisions)},
-                 {"Hits of walls", std::to_string(t.wall_hits)},
-                 {"Collisions per particle",
-                  fmt::format("{:.4g}", 2 * static_cast<double>(t.collisions) / static_cast<double>(size()))},
-                 {"Temperature", fmt::format("{:.4g} J", o.temperature)},
-                 {"Smallest gap at a contact", fmt::format("{:.2g} m", t.smallest_gap)}});
+    rows.insert(
+        rows.begin(),
+        {{"Particles", runs_.size() > 1 ? fmt::format("{} in each of {} replicas", size(), runs_.size())
+                                        : std::to_string(size())},
+         {"Simulated time", fmt::format("{:.4g} s", time())},
+         {"Collisions", std::to_string(t.collisions)},
+         {"Hits of walls", std::to_string(t.wall_hits)},
+         {"Collisions per particle",
+          fmt::format("{:.4g}", 2 * static_cast<double>(t.collisions) / particles)},
+         {"Temperature", runs_.size() > 1 ? fmt::format("{:.4g} ± {:.2g} J", mean.mean, mean.error)
+                                          : fmt::format("{:.4g} J", temperature.front())},
+         {"Smallest gap at a contact", fmt::format("{:.2g} m", t.smallest_gap)}});
     return rows;
 }
 

@@ -66,6 +66,7 @@ Setup setup_of(const scene::Scene& scene) {
                            static_cast<std::size_t>(pair.between[1]), pair.restitution, pair.dissipation});
     s.scheme = scene.dsmc.scheme;
     s.enskog = scene.dsmc.enskog;
+    s.partners = static_cast<std::int32_t>(scene.dsmc.near_partners);
     s.dt = scene.dsmc.dt;
     s.adaptive = scene.dsmc.adaptive;
     s.kicks = scene.dsmc.heating;
@@ -155,6 +156,7 @@ void say_what_is_skipped(Plan& plan) {
     skip(s.restitution.model == laws::Restitution::Model::constant,
          "restitution by impact speed: it is constant");
     skip(!s.enskog, "pair correlation at contact");
+    skip(s.partners == 1, "near partners");
     skip(s.kicks == 0, "thermostat");
     bool walls = false, falls = false;
     for (int d = 0; d < s.dimension; ++d) {

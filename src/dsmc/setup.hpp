@@ -40,6 +40,7 @@ struct Setup {
     laws::Restitution restitution;
     laws::CollisionScheme scheme = laws::CollisionScheme::no_time_counter;
     bool enskog = false;
+    std::int32_t partners = 1; // of which the nearest is taken
     double dt = 0;         // s
     bool adaptive = false; // dt grows as 1/sqrt(T)
     double kicks = 0;      // white noise xi^2 of each velocity component, m^2/s^3

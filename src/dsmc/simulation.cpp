@@ -356,6 +356,8 @@ void Simulation::collide(std::int32_t t, Scratch& scratch, Result& result) {
     const bool mixed = !setup_.others.empty();
     view.margin = setup_.margin * (setup_.rough || mixed ? 1.2 : 1.0);
     view.mixture = mixed ? &mixture_ : nullptr;
+    view.partners = setup_.partners;
+    for (int d = 0; d < 3; ++d) view.near_axis[d] = setup_.cells[d] > 1 ? 1 : 0;
     view.packing = setup_.enskog ? setup_.weight * setup_.particle_volume() / setup_.cell_volume() : 0;
     view.restitution = setup_.restitution;
     view.tangential = setup_.tangential;

@@ -23,9 +23,11 @@ std::vector<Particle> Algorithm::particles() const {
         p.velocity = {f.velocity.x, f.velocity.y, f.velocity.z};
         p.spin = s.spin;
         p.image = s.boxes;
+        if (setup_.shear != 0)
+            p.image[1] += fold_height(setup_, clock_.now, p.place[0], p.place[1], p.velocity[0]);
         for (std::size_t d = 0; d < static_cast<std::size_t>(setup_.dimension); ++d) {
             const int axis = static_cast<int>(d);
-            if (!setup_.periodic[axis]) continue;
+            if (!setup_.periodic[axis] || (setup_.shear != 0 && d == 1)) continue;
             const double boxes = std::floor((p.place[d] - setup_.lower[axis]) / setup_.length(axis));
             p.place[d] -= boxes * setup_.length(axis);
             p.image[d] += static_cast<std::int64_t>(boxes);
@@ -64,7 +66,18 @@ void Algorithm::put_course(ByteWriter& out) const {
     out.put(epoch_end_);
     out.put(kicks_);
     out.put(setup_.scale);
+    out.put(setup_.offset);
 }
+
+namespace {
+
+// Of a sheared gas: whether the box above stands where an epoch can bring it.
+bool is_near(const Setup& setup, double now) {
+    return setup.offset >= 0 && setup.offset <= setup.length(0) &&
+           std::abs(setup.image_speed()) * now <= 1e6 * setup.length(0);
+}
+
+} // namespace
 
 void Algorithm::get_course(ByteReader& in) {
     std::vector<Clock> clock;
@@ -83,10 +96,11 @@ void Algorithm::get_course(ByteReader& in) {
     epoch_end_ = in.get<double>();
     kicks_ = in.get<std::int64_t>();
     setup_.scale = in.get<double>();
+    setup_.offset = in.get<double>();
     const bool makes_sense = std::isfinite(clock_.epoch) && std::isfinite(clock_.carry) && clock_.now >= 0 &&
                              std::isfinite(clock_.now) && epoch_end_ >= 0 && epoch_events_ >= 0 &&
                              epoch_events_ <= events_of_epoch(size()) && kicks_ >= 0 && setup_.scale > 0 &&
-                             std::isfinite(setup_.scale);
+                             std::isfinite(setup_.scale) && is_near(setup_, clock_.now);
     if (!makes_sense || !in.at_end()) fail(Exit::io, "damaged state");
 }
 
@@ -121,9 +135,16 @@ void Algorithm::check_course(const Drift& drift) {
              -tally_.smallest_gap, time());
 }
 
-Observables observe(const Setup& setup, const std::vector<Particle>& particles) {
+std::vector<Particle> thermal_particles(const Setup& setup, std::vector<Particle> particles) {
+    if (setup.shear != 0)
+        for (Particle& p : particles) p.velocity[0] -= setup.flow(p.place[1]);
+    return particles;
+}
+
+Observables observe(const Setup& setup, const std::vector<Particle>& given) {
     Observables o;
-    if (particles.empty()) return o;
+    if (given.empty()) return o;
+    const std::vector<Particle> particles = thermal_particles(setup, given);
     const auto d = static_cast<std::size_t>(setup.dimension);
     const auto n = static_cast<double>(particles.size()), dimension = static_cast<double>(d);
     double mass = 0;
@@ -145,6 +166,7 @@ Observables observe(const Setup& setup, const std::vector<Particle>& particles) 
             o.energy += 0.5 * c.mass * p.velocity[k] * p.velocity[k];
         }
         square += thermal;
+        o.flux += c.mass * ((p.velocity[0] - o.drift[0]) * (p.velocity[1] - o.drift[1]));
         fourth += thermal * thermal;
         o.of_class[p.kind] += thermal / dimension;
         ++count[p.kind];

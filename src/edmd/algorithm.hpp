@@ -8,6 +8,7 @@
 #include "edmd/setup.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -16,7 +17,7 @@
 
 namespace sandlane::edmd {
 
-// Sums over all particles, in the order of their ids.
+// Sums over all particles, in the order of their ids, without the flow of a sheared gas.
 struct Observables {
     double temperature = 0;        // m <(v - u)^2>/d, J
     std::vector<double> of_class;  // the same of each class
@@ -24,8 +25,11 @@ struct Observables {
     double energy = 0;             // kinetic, of translation and spin, J
     double fourth = 0;             // a2 of the thermal energies
     std::array<double, 3> drift{}; // u of the centre of mass, m/s
+    double flux = 0;               // of x momentum along y: sum of m v_x v_y, J
 };
 [[nodiscard]] Observables observe(const Setup& setup, const std::vector<Particle>& particles);
+// Without the flow of a sheared gas.
+[[nodiscard]] std::vector<Particle> thermal_particles(const Setup& setup, std::vector<Particle> particles);
 
 // A particle as it was left by its last event.
 struct RawState {
@@ -91,6 +95,10 @@ protected:
     // The present becomes the start of an epoch.
     void restart_clock() {
         setup_.scale += setup_.growth * clock_.now;
+        if (setup_.shear != 0) {
+            setup_.offset = setup_.offset_at(clock_.now);
+            setup_.offset -= std::floor(setup_.offset / setup_.length(0)) * setup_.length(0);
+        }
         clock_.begin_epoch();
     }
 };

@@ -42,8 +42,9 @@ private:
     Vector<double> momentum_{0, 0, 0};
 };
 
-// Longest epoch: no particle crosses a thousand boxes, unless it becomes far faster than any at its start.
-// square: of the largest speed.
+// Longest epoch: no particle crosses a thousand boxes, unless it becomes far faster than any at its start;
+// nor thirty of a sheared gas, each of which may be thirty boxes further along x. square: of the largest
+// speed.
 [[nodiscard]] inline double longest_epoch(const Setup& setup, double square) {
     double shortest = std::numeric_limits<double>::infinity(), field = 0;
     for (int d = 0; d < setup.dimension; ++d) {
@@ -58,7 +59,10 @@ private:
     for (const Curved& c : setup.curved)
         fastest = std::max(fastest, std::sqrt(c.wall.temperature / setup.classes[0].mass));
     if (setup.kicks > 0) fastest = std::max(fastest, std::sqrt(setup.kicks * setup.kick_interval));
-    const double straight = fastest > 0 ? 1000 * shortest / fastest : std::numeric_limits<double>::infinity();
+    fastest += std::abs(setup.image_speed());
+    const double boxes = setup.shear != 0 ? 30 : 1000;
+    const double straight =
+        fastest > 0 ? boxes * shortest / fastest : std::numeric_limits<double>::infinity();
     // A field that a periodic direction follows makes them faster all the time.
     return field > 0 ? std::min(straight, std::sqrt(1000 * shortest / std::sqrt(field))) : straight;
 }

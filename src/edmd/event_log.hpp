@@ -68,15 +68,32 @@ struct Tally {
     std::int64_t elastic = 0; // made so by the rules against inelastic collapse
     double kept = 0;          // energy that they kept, J
     double virial = 0;        // sum of R_ij |P_n|, J s
+    double shear = 0;         // sum of R_ij e_y P_x, J s
+    double lost = 0;          // energy that collisions took, J
     double wall_energy = 0;   // that walls gave, J
+    double heat = 0;          // that the thermostat gave, J
     double smallest_gap = 0;  // of surfaces that met, m; rounding
 
     SANDLANE_INLINE void add(const Impact& impact, const Class& a, const Class& b) {
         ++collisions;
-        virial += (a.radius + b.radius) * (a.mass * b.mass / (a.mass + b.mass)) * impact.push;
+        const double part = (a.radius + b.radius) * (a.mass * b.mass / (a.mass + b.mass));
+        virial += part * impact.push;
+        shear += part * impact.across;
         smallest_gap = min(smallest_gap, impact.gap);
         elastic += impact.elastic ? 1 : 0;
         kept += impact.kept;
+        lost += impact.lost;
+    }
+    // Of a particle that had the velocity v.
+    void add_kick(double mass, const Vector<double>& v, const Vector<double>& kick) {
+        heat += mass * (dot(v, kick) + 0.5 * dot(kick, kick));
+    }
+    // Those of another run.
+    void add(const Tally& t) {
+        collisions += t.collisions, wall_hits += t.wall_hits, elastic += t.elastic;
+        kept += t.kept, virial += t.virial, shear += t.shear;
+        lost += t.lost, wall_energy += t.wall_energy, heat += t.heat;
+        smallest_gap = min(smallest_gap, t.smallest_gap);
     }
     void add(const WallEffect& effect) {
         ++wall_hits;

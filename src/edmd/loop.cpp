@@ -11,16 +11,12 @@ namespace sandlane::edmd {
 
 using simd::HardEvents;
 using simd::HardState;
-using simd::image_mask;
-using simd::image_zero;
+using simd::image_of;
 using simd::never_meets;
 using simd::no_partner;
 
 namespace {
 
-std::int64_t image_of(const HardState& s, int d) {
-    return static_cast<std::int64_t>((s.word >> 16 * d) & image_mask) - static_cast<std::int64_t>(image_zero);
-}
 std::uint32_t kind_of(const HardState& s) {
     return static_cast<std::uint32_t>(s.word >> 48);
 }
@@ -47,16 +43,33 @@ template <int dimension> Vector<double> Simulation::shift_of(std::uint32_t i, st
     return {shift[0], shift[1], shift[2]};
 }
 
+template <int dimension> Image Simulation::image_between(std::uint32_t i, std::uint32_t j, double now) const {
+    if (setup_.shear == 0) return {shift_of<dimension>(i, j), 0};
+    std::array<std::int64_t, 3> boxes{};
+    (void)boxes_between<dimension>(i, j, boxes);
+    return sandlane::edmd::image_of(setup_, boxes, now);
+}
+
 // Whether the stored contact is what the present states lead to.
 template <int dimension, bool special>
 bool Simulation::still_meets(std::uint32_t i, std::uint32_t j, double time) const {
     const HardEvents &a = events_[i], &b = events_[j];
+    const double reach =
+        radius_[special ? kind_of(states_[i]) : 0] + radius_[special ? kind_of(states_[j]) : 0];
+    if (special && setup_.shear != 0) {
+        std::array<std::int64_t, 3> boxes{};
+        if (!boxes_between<dimension>(i, j, boxes)) return false;
+        const Vector<double> shift{static_cast<double>(boxes[0]) * view_.length[0],
+                                   static_cast<double>(boxes[1]) * view_.length[1],
+                                   static_cast<double>(boxes[2]) * view_.length[2]};
+        return laws::sheared_pair_time<dimension, double>(flight_of(states_[i]), flight_of(states_[j]), shift,
+                                                          static_cast<double>(boxes[1]), reach, setup_.offset,
+                                                          setup_.image_speed(), never_meets) == time;
+    }
     for (int d = 0; d < dimension; ++d) {
         const int apart = std::abs(a.cell[d] - b.cell[d]);
         if (apart > 1 && !(view_.periodic[d] && apart == view_.count[d] - 1)) return false;
     }
-    const double reach =
-        radius_[special ? kind_of(states_[i]) : 0] + radius_[special ? kind_of(states_[j]) : 0];
     const Vector<double> gravity{setup_.gravity[0], setup_.gravity[1], setup_.gravity[2]};
     if (special && setup_.growth > 0)
         return laws::growing_pair_time<dimension, double>(flight_of(states_[i]), flight_of(states_[j]),
@@ -71,7 +84,7 @@ bool Simulation::still_meets(std::uint32_t i, std::uint32_t j, double time) cons
 template <int dimension> bool Simulation::just_met(std::uint32_t i, std::uint32_t j) const {
     const laws::Flight<double> a = flight_of(states_[i]), b = flight_of(states_[j]);
     const double reach = radius_[kind_of(states_[i])] + radius_[kind_of(states_[j])];
-    return laws::touches(a.place - b.place - shift_of<dimension>(i, j), reach);
+    return laws::touches(a.place - b.place - image_between<dimension>(i, j, a.time).shift, reach);
 }
 
 template <int dimension, bool special> void Simulation::search(std::uint32_t i, int layer) {
@@ -122,8 +135,13 @@ template <int dimension, bool special> void Simulation::look_for_crossing(std::u
         } else {
             // From the present, since the face may have been met before the last crossing.
             const double dt = now_ - s.time, g = setup_.gravity[d];
-            const double v = s.velocity[d] + g * dt;
-            const double x = s.place[d] + s.velocity[d] * dt + g * (0.5 * (dt * dt));
+            double v = s.velocity[d] + g * dt;
+            double x = s.place[d] + s.velocity[d] * dt + g * (0.5 * (dt * dt));
+            if (d == 0 && setup_.shear != 0) { // as seen from the box where it is
+                const auto up = static_cast<double>(image_of(s, 1));
+                x -= up * setup_.offset_at(now_);
+                v -= up * setup_.image_speed();
+            }
             for (int up = 0; up < 2; ++up) {
                 if (!view_.periodic[d] && e.cell[d] == (up == 0 ? 0 : view_.count[d] - 1)) continue;
                 const double face = base + (e.cell[d] + up) * edge_[d], sign = up == 0 ? 1 : -1;
@@ -152,17 +170,25 @@ template <int dimension, bool special> void Simulation::cross(std::uint32_t i) {
     if (to < 0) states_[i].word -= one;
     if (to == count) states_[i].word += one;
     e.cell[d] = static_cast<std::uint16_t>(to < 0 ? count - 1 : to == count ? 0 : to);
+    const bool slides = special && setup_.shear != 0 && d == 1 && (to < 0 || to == count);
+    if (slides) find_column<dimension>(i);
     add_to_cell(cell_number(e.cell), i);
     look_for_crossing<dimension, special>(i);
-    search<dimension, special>(i, layer);
+    search<dimension, special>(i, slides ? -1 : layer);
     queue_.put(i, e);
     ++work_.crossings;
 }
 
-template <int dimension> void Simulation::fold(std::uint32_t i) {
+template <int dimension, bool special> void Simulation::fold(std::uint32_t i) {
     HardState& s = states_[i];
+    const bool slides = special && setup_.shear != 0;
+    if (slides) {
+        const std::int64_t boxes = fold_height(setup_, now_, s.place[0], s.place[1], s.velocity[0]);
+        s.word -= static_cast<std::uint64_t>(boxes) << 16;
+        turns_[3 * i + 1] += static_cast<std::int32_t>(boxes);
+    }
     for (int d = 0; d < dimension; ++d) {
-        if (!view_.periodic[d]) continue;
+        if (!view_.periodic[d] || (slides && d == 1)) continue;
         const double from = s.place[d] - setup_.lower[d];
         if (from >= 0 && from < view_.length[d]) continue;
         const double boxes = std::floor(from / view_.length[d]);
@@ -176,7 +202,6 @@ template <int dimension> void Simulation::fold(std::uint32_t i) {
 template <int dimension, bool special> void Simulation::collide_pair(std::uint32_t i, std::uint32_t j) {
     const Vector<double> gravity{setup_.gravity[0], setup_.gravity[1], setup_.gravity[2]};
     if (events_[j].id < events_[i].id) std::swap(i, j);
-    const Vector<double> shift = shift_of<dimension>(i, j);
     const std::uint32_t pair[2] = {i, j};
     Body body[2];
     for (int k = 0; k < 2; ++k) {
@@ -192,24 +217,27 @@ template <int dimension, bool special> void Simulation::collide_pair(std::uint32
     Impact impact;
     if constexpr (special) {
         const double last = max(events_[i].last_time, events_[j].last_time);
-        impact = collide(setup_, body[0], body[1], shift, now_ - last < setup_.contact_time, now_);
+        impact = collide(setup_, body[0], body[1], image_between<dimension>(i, j, now_),
+                         now_ - last < setup_.contact_time, now_);
         if (setup_.rough)
             for (int k = 0; k < 2; ++k) spin_[pair[k]] = body[k].spin;
     } else {
-        impact = collide_plain<dimension>(setup_.restitution.eps, radius_[0] + radius_[0], body[0], body[1],
-                                          shift);
+        impact =
+            collide_plain<dimension>(setup_.restitution.eps, radius_[0] + radius_[0], setup_.classes[0].mass,
+                                     body[0], body[1], shift_of<dimension>(i, j));
     }
-    for (int k = 0; k < 2; ++k) settle<dimension>(pair[k], body[k], pair[1 - k]);
+    for (int k = 0; k < 2; ++k) settle<dimension, special>(pair[k], body[k], pair[1 - k]);
     tally_.add(impact, setup_.classes[kind_of(states_[i])], setup_.classes[kind_of(states_[j])]);
     log_.add({now_, Event::Kind::pair, events_[i].id, events_[j].id});
 }
 
-template <int dimension> void Simulation::settle(std::uint32_t i, const Body& body, std::uint32_t partner) {
+template <int dimension, bool special>
+void Simulation::settle(std::uint32_t i, const Body& body, std::uint32_t partner) {
     HardState& s = states_[i];
     s.place[0] = body.place.x, s.place[1] = body.place.y, s.place[2] = body.place.z;
     s.velocity[0] = body.velocity.x, s.velocity[1] = body.velocity.y, s.velocity[2] = body.velocity.z;
     s.time = now_;
-    fold<dimension>(i);
+    fold<dimension, special>(i);
     events_[i].last = partner;
     events_[i].last_time = now_;
 }
@@ -226,7 +254,7 @@ template <int dimension> void Simulation::meet_side(std::uint32_t i, std::uint32
     const WallEffect effect = meet_wall(setup_, body, hit);
     if (effect.heated) ++e.hits;
     if (setup_.rough) spin_[i] = body.spin;
-    settle<dimension>(i, body, wall);
+    settle<dimension, true>(i, body, wall);
     tally_.add(effect);
     log_.add({now_, Event::Kind::wall, e.id, static_cast<std::uint32_t>(number)});
 }
@@ -236,6 +264,14 @@ template <int dimension, bool special> void Simulation::renew(std::uint32_t i) {
     search<dimension, special>(i, -1);
     queue_.put(i, events_[i]);
 }
+
+// Of what its cell faces now.
+template <int dimension> void Simulation::search_again(std::uint32_t i) {
+    search<dimension, true>(i, -1);
+    queue_.put(i, events_[i]);
+}
+template void Simulation::search_again<2>(std::uint32_t);
+template void Simulation::search_again<3>(std::uint32_t);
 
 template <int dimension, bool special> void Simulation::predict_all() {
     const std::size_t n = states_.size(), tile = 256, tiles = (n + tile - 1) / tile;
@@ -275,7 +311,7 @@ template <int dimension> void Simulation::synchronise() {
         laws::fly<dimension, true>(f, now_ - f.time, gravity);
         s.place[0] = f.place.x, s.place[1] = f.place.y, s.place[2] = f.place.z;
         s.velocity[0] = f.velocity.x, s.velocity[1] = f.velocity.y, s.velocity[2] = f.velocity.z;
-        fold<dimension>(static_cast<std::uint32_t>(k));
+        fold<dimension, true>(static_cast<std::uint32_t>(k));
         s.time = 0;
         events_[k].last_time -= now_;
     }

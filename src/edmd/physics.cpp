@@ -27,38 +27,64 @@ double kinetic(const Setup& setup, const Body& b) {
 
 } // namespace
 
-Impact collide(const Setup& setup, Body& i, Body& j, const Vector<double>& shift, bool soon, double now) {
+Image image_of(const Setup& setup, const std::array<std::int64_t, 3>& boxes, double now) {
+    Image image;
+    for (int d = 0; d < setup.dimension; ++d)
+        if (setup.periodic[d])
+            component(image.shift, d) =
+                static_cast<double>(boxes[static_cast<std::size_t>(d)]) * setup.length(d);
+    if (setup.shear == 0) return image;
+    const auto up = static_cast<double>(boxes[1]);
+    image.shift.x += up * setup.offset_at(now);
+    image.speed = up * setup.image_speed();
+    return image;
+}
+
+std::int64_t fold_height(const Setup& setup, double now, double& x, double& y, double& speed_x) {
+    const double boxes = std::floor((y - setup.lower[1]) / setup.length(1));
+    if (boxes == 0) return 0;
+    y -= boxes * setup.length(1);
+    x -= boxes * setup.offset_at(now);
+    speed_x -= boxes * setup.image_speed();
+    return static_cast<std::int64_t>(boxes);
+}
+
+Impact collide(const Setup& setup, Body& i, Body& j, const Image& image, bool soon, double now) {
     const Class &a = setup.classes[i.kind], &b = setup.classes[j.kind];
-    Vector<double> r = i.place - j.place - shift;
+    Vector<double> r = i.place - j.place - image.shift;
     if (setup.dimension == 2) r.z = 0;
     const double distance = std::sqrt(dot(r, r));
     const Vector<double> e = (1 / distance) * r;
-    const Vector<double> relative = i.velocity - j.velocity;
+    Vector<double> relative = i.velocity - j.velocity;
+    relative.x -= image.speed;
     // Of the surfaces, which approach by themselves where radii grow.
     const double reach = a.radius + b.radius;
     const double normal = min(dot(relative, e) - reach * setup.growth, 0.0);
     Impact impact{distance - reach * (setup.scale + setup.growth * now)};
-    const double given = laws::restitution(setup.restitution, -normal);
+    const double given = laws::restitution(setup.restitution_of(i.kind, j.kind), -normal);
     impact.elastic = soon || -normal < setup.elastic_speed;
     const double eps = impact.elastic ? 1 : given;
     impact.push = -((1 + eps) * normal);
     const double share_i = b.mass / (a.mass + b.mass), share_j = a.mass / (a.mass + b.mass);
-    if (impact.elastic) impact.kept = 0.5 * a.mass * share_i * (1 - given * given) * normal * normal;
+    const double taken = 0.5 * a.mass * share_i * (1 - given * given) * normal * normal;
+    (impact.elastic ? impact.kept : impact.lost) = taken;
     if (!setup.rough || impact.elastic) {
         const Vector<double> push = laws::smooth_impulse(normal, e, eps);
         i.velocity = i.velocity + share_i * push;
         j.velocity = j.velocity - share_j * push;
+        impact.across = push.x * e.y;
         return impact;
     }
     const Vector<double> g = relative - cross(a.radius * i.spin + b.radius * j.spin, e);
     const double ratio = 1 / (1 + (share_i / a.inertia + share_j / b.inertia));
     double eps_t = setup.tangential;
-    if (setup.friction > 0) {
-        const Vector<double> along = g - dot(g, e) * e;
+    const Vector<double> along = g - dot(g, e) * e;
+    if (setup.friction > 0)
         eps_t = laws::sliding_restitution(eps_t, setup.friction, eps, ratio, -normal,
                                           std::sqrt(dot(along, along)));
-    }
+    impact.lost += 0.5 * a.mass * share_i * ratio * (1 - eps_t * eps_t) * dot(along, along);
     const Vector<double> push = laws::impulse(g, e, eps, eps_t, ratio), turn = cross(e, push);
+    impact.across = push.x * e.y;
     i.velocity = i.velocity + share_i * push;
     j.velocity = j.velocity - share_j * push;
     i.spin = i.spin - (share_i / (a.inertia * a.radius)) * turn;

@@ -21,12 +21,14 @@ struct Impact {
     double push = 0;      // normal impulse over m_eff, m/s
     bool elastic = false; // made elastic by the rules against inelastic collapse
     double kept = 0;      // energy that these rules kept, J
+    double lost = 0;      // energy that the collision took, J
+    double across = 0;    // impulse along x over m_eff, times the y component of the unit vector to i, m/s
 };
 
 // Smooth particles of one class with constant restitution: the arithmetic of collide(), with what is trivial
 // left out.
 template <int dimension>
-SANDLANE_INLINE Impact collide_plain(double eps, double reach, Body& i, Body& j,
+SANDLANE_INLINE Impact collide_plain(double eps, double reach, double mass, Body& i, Body& j,
                                      const Vector<double>& shift) {
     Vector<double> r = i.place - j.place - shift;
     if constexpr (dimension == 2) r.z = 0;
@@ -37,12 +39,23 @@ SANDLANE_INLINE Impact collide_plain(double eps, double reach, Body& i, Body& j,
     const Vector<double> push = laws::smooth_impulse(normal, e, eps);
     i.velocity = i.velocity + 0.5 * push;
     j.velocity = j.velocity - 0.5 * push;
-    return {distance - reach, -((1 + eps) * normal), false, 0};
+    return {distance - reach, -((1 + eps) * normal), false, 0,
+            0.25 * mass * (1 - eps * eps) * normal * normal};
 }
 
-// The image of j that is `shift` away. soon: one of them had another collision less than the contact time
-// ago. now: since the start of the epoch.
-Impact collide(const Setup& setup, Body& i, Body& j, const Vector<double>& shift, bool soon, double now);
+// Where the image of a particle is, and how much faster it moves along x than the particle itself.
+struct Image {
+    Vector<double> shift{0, 0, 0}; // m
+    double speed = 0;              // m/s; of a sheared gas
+};
+// The one so many boxes away, at a time of the epoch.
+[[nodiscard]] Image image_of(const Setup& setup, const std::array<std::int64_t, 3>& boxes, double now);
+// Of a sheared gas: what left the box in y goes back to it. Returns how many boxes it went down.
+std::int64_t fold_height(const Setup& setup, double now, double& x, double& y, double& speed_x);
+
+// With the image of j. soon: one of them had another collision less than the contact time ago. now: since the
+// start of the epoch.
+Impact collide(const Setup& setup, Body& i, Body& j, const Image& image, bool soon, double now);
 
 // Time of the contact with a wall, from the state of the particle; never_meets if there is none. epoch: time
 // of the clock at state.time = 0.

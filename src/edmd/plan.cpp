@@ -62,12 +62,23 @@ Setup setup_of(const scene::Scene& scene) {
     s.classes = {{0.5 * gas.diameter, gas.mass, q}};
     for (const scene::Species& more : scene.species) s.classes.push_back({0.5 * more.diameter, more.mass, q});
     s.restitution = analysis::restitution_of(gas);
+    for (std::size_t k = 0; !scene.gas_pairs.empty() && k < s.classes.size() * s.classes.size(); ++k)
+        s.pairs.push_back(s.restitution);
+    for (const scene::GasPair& pair : scene.gas_pairs) {
+        const auto i = static_cast<std::size_t>(pair.between[0]),
+                   j = static_cast<std::size_t>(pair.between[1]);
+        for (const std::size_t at : {s.classes.size() * i + j, s.classes.size() * j + i}) {
+            s.pairs[at].eps = pair.restitution;
+            s.pairs[at].dissipation = pair.dissipation;
+        }
+    }
     s.rough = gas.tangential_restitution != 1;
     s.tangential = gas.tangential_restitution;
     s.friction = gas.friction;
     s.contact_time = scene.edmd.contact_time;
     s.elastic_speed = scene.edmd.elastic_speed;
     s.cell_edge = scene.edmd.cell_edge;
+    s.shear = scene.domain.shear_rate;
     s.seed = static_cast<std::uint64_t>(scene.seed);
     return s;
 }
@@ -152,6 +163,7 @@ void say_what_is_skipped(Plan& plan) {
     skip(!s.has_walls(), "walls: all sides are periodic");
     skip(!s.falls(), "gravity");
     skip(s.kicks == 0, "thermostat");
+    skip(s.shear == 0, "shear of the periodic images");
     skip(s.contact_time == 0 && s.elastic_speed == 0, "rules against inelastic collapse");
 }
 
@@ -169,7 +181,7 @@ void warn(const scene::Scene& scene, Plan& plan) {
                         "it changes the gas",
                         s.elastic_speed / speed));
     if (!s.is_plain() && s.falls() && s.has_walls() && s.contact_time == 0 && s.elastic_speed == 0) {
-        bool dissipates = s.restitution.model == laws::Restitution::Model::constant && s.restitution.eps < 1;
+        bool dissipates = s.restitution.model == laws::Restitution::Model::constant && s.dissipates();
         for (const auto& axis : s.side)
             for (const Side& side : axis) dissipates = dissipates || side.eps_n < 1;
         if (dissipates)
@@ -247,19 +259,24 @@ Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& thr
     const bool room = s.has_room_for_cells();
     using scene::EventAlgorithm;
     if (scene.edmd.algorithm == EventAlgorithm::improved && !room)
-        fail(Exit::invalid_input, "edmd.algorithm = \"improved\": the domain must have room for three "
-                                  "cells of a diameter each where it is periodic; use \"auto\" or "
-                                  "\"simple\"");
+        fail(Exit::invalid_input,
+             "edmd.algorithm = \"improved\": the domain must have room for three cells of a diameter each "
+             "where it is periodic, for four along a shear flow; use \"auto\" or \"simple\"");
     plan.simple = scene.edmd.algorithm == EventAlgorithm::simple || !room;
     if (plan.simple && !room)
         plan.chosen.push_back(
-            "the simple algorithm: the box is too small for three cells in a periodic direction");
+            "the simple algorithm: the box is too small for three cells in a periodic direction, or four "
+            "along a shear flow");
     if (plan.simple && plan.particles() > 20000)
         fail(Exit::invalid_input,
              "edmd.algorithm: the simple algorithm keeps all pairs; allowed: up to 20000 particles, here {}",
              plan.particles());
-    if (threads.automatic && plan.particles() < 10000) plan.threads = 1;
-    plan.homogeneous = s.is_plain() || (s.classes.size() == 1 && !s.rough && !s.has_walls() && !s.falls());
+    plan.replicas = static_cast<int>(scene.edmd.replicas);
+    if (plan.replicas > 1)
+        plan.threads = std::min(plan.threads, plan.replicas);
+    else if (threads.automatic && plan.particles() < 10000)
+        plan.threads = 1;
+    plan.homogeneous = s.classes.size() == 1 && !s.rough && !s.has_walls() && !s.falls() && s.shear == 0;
     check_curved(plan);
     choose_kicks(scene, plan);
     expect_events(scene, plan);
@@ -269,18 +286,27 @@ Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& thr
 }
 
 double memory_bytes(const Plan& plan) {
-    const auto n = static_cast<double>(plan.particles());
-    if (plan.simple) return n * n / 2 * 64 + n * 600;
+    const auto n = static_cast<double>(plan.particles()), replicas = static_cast<double>(plan.replicas);
+    if (plan.simple) return replicas * (n * n / 2 * 64 + n * 600);
     // Beside the state, what a checkpoint or an output holds, and a second copy where storage is sorted.
-    return n * (200 + (plan.setup.rough ? 24 : 0) + 400);
+    return replicas * n * (200 + (plan.setup.rough ? 24 : 0) + 400);
 }
 
-std::unique_ptr<Algorithm> start(const scene::Scene& scene, const Plan& plan, simd::Isa isa) {
-    const Start start{static_cast<Start::Kind>(scene.edmd.start), scene.edmd.growth_rate, plan.threads, isa};
+std::unique_ptr<Algorithm> start(const scene::Scene& scene, const Plan& plan, simd::Isa isa, int replica) {
+    const int threads = plan.replicas > 1 ? 1 : plan.threads;
+    const Start start{static_cast<Start::Kind>(scene.edmd.start), scene.edmd.growth_rate, threads, isa};
+    Setup setup = plan.setup;
+    setup.seed += static_cast<std::uint64_t>(replica);
     const std::vector<Particle> particles =
-        make_particles(plan.setup, plan.amounts, scene.gas.temperature, scene.gas.spin_temperature, start);
-    if (plan.simple) return std::make_unique<SimpleAlgorithm>(plan.setup, particles);
-    return std::make_unique<Simulation>(plan.setup, particles, isa, plan.threads);
+        make_particles(setup, plan.amounts, scene.gas.temperature, scene.gas.spin_temperature, start);
+    if (plan.simple) return std::make_unique<SimpleAlgorithm>(setup, particles);
+    return std::make_unique<Simulation>(setup, particles, isa, threads);
+}
+
+Ensemble start_all(const scene::Scene& scene, const Plan& plan, simd::Isa isa) {
+    std::vector<std::unique_ptr<Algorithm>> runs;
+    for (int n = 0; n < plan.replicas; ++n) runs.push_back(start(scene, plan, isa, n));
+    return {std::move(runs), plan.threads};
 }
 
 std::string describe(const scene::Scene& scene, const Plan& plan) {
@@ -309,10 +335,16 @@ std::string describe(const scene::Scene& scene, const Plan& plan) {
                                              "a lattice", "by growth of the radii"};
     line("start", starts[static_cast<std::size_t>(scene.edmd.start)]);
     if (!s.curved.empty()) line("curved walls", fmt::format("{}", s.curved.size()));
+    if (s.shear != 0) line("shear flow", fmt::format("{:.4g} 1/s, periodic images glide along x", s.shear));
     if (s.kicks > 0) line("thermostat", fmt::format("white noise, kicks every {:.4g} s", s.kick_interval));
     line("kernels", plan.simple ? "none" : std::string(simd::isa_name(plan.isa)));
+    if (plan.replicas > 1)
+        line("replicas", fmt::format("{}, of seeds {} to {}", plan.replicas, s.seed,
+                                     s.seed + static_cast<std::uint64_t>(plan.replicas) - 1));
     line("threads",
-         fmt::format("{}, to predict all events at once; events are taken one by one", plan.threads));
+         plan.replicas > 1
+             ? fmt::format("{}, each for one replica at a time", plan.threads)
+             : fmt::format("{}, to predict all events at once; events are taken one by one", plan.threads));
     for (const std::string& reason : plan.chosen) text += "  " + reason + "\n";
     text += "\nSkipped, because the scene does not need it\n";
     for (const std::string& reason : plan.skipped) text += "  " + reason + "\n";

@@ -5,6 +5,7 @@
 #include "analysis/gas_theory.hpp"
 #include "core/parallel.hpp"
 #include "edmd/algorithm.hpp"
+#include "edmd/ensemble.hpp"
 #include "edmd/start.hpp"
 #include "scene/scene.hpp"
 #include "simd/tables.hpp"
@@ -21,6 +22,7 @@ struct Plan {
     simd::Isa isa = simd::Isa::scalar;
     int threads = 1;
     bool simple = false;      // the simple algorithm
+    int replicas = 1;         // independent runs of other seeds
     double events = 0;        // about so many
     double duration = 0;      // about so long, s
     double first_output = 0;  // the mean time between two collisions of a particle at the start, s
@@ -34,7 +36,10 @@ struct Plan {
 [[nodiscard]] Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& threads);
 [[nodiscard]] double memory_bytes(const Plan& plan);
 [[nodiscard]] std::string describe(const scene::Scene& scene, const Plan& plan);
-[[nodiscard]] std::unique_ptr<Algorithm> start(const scene::Scene& scene, const Plan& plan, simd::Isa isa);
+// One replica: the run of the scene with a seed so much larger.
+[[nodiscard]] std::unique_ptr<Algorithm> start(const scene::Scene& scene, const Plan& plan, simd::Isa isa,
+                                               int replica = 0);
+[[nodiscard]] Ensemble start_all(const scene::Scene& scene, const Plan& plan, simd::Isa isa);
 
 // The gas as theory sees it: the particles of the first class, at the density of all.
 [[nodiscard]] analysis::HardGas gas_of(const Plan& plan);

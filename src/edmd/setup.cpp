@@ -44,14 +44,23 @@ bool Setup::has_walls() const {
 }
 
 bool Setup::has_room_for_cells() const {
+    const double edge = 1.000001 * std::max(2 * largest_radius(), cell_edge);
     for (int d = 0; d < dimension; ++d)
-        if (periodic[d] && length(d) < 3.000001 * std::max(2 * largest_radius(), cell_edge)) return false;
+        if (periodic[d] && length(d) < (shear != 0 && d == 0 ? 4 : 3) * edge) return false;
     return true;
+}
+
+bool Setup::dissipates() const {
+    const auto loses = [](const laws::Restitution& law) {
+        return law.model != laws::Restitution::Model::constant || law.eps < 1;
+    };
+    return rough || loses(restitution) || std::any_of(pairs.begin(), pairs.end(), loses);
 }
 
 bool Setup::is_plain() const {
     return classes.size() == 1 && !rough && !has_walls() && !falls() && contact_time == 0 &&
-           elastic_speed == 0 && growth == 0 && restitution.model == laws::Restitution::Model::constant;
+           elastic_speed == 0 && growth == 0 && shear == 0 &&
+           restitution.model == laws::Restitution::Model::constant;
 }
 
 } // namespace sandlane::edmd

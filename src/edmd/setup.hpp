@@ -48,7 +48,8 @@ struct Setup {
     Side side[3][2]; // lower, upper
     double gravity[3] = {0, 0, 0};
     std::vector<Class> classes = std::vector<Class>(1);
-    laws::Restitution restitution; // of particles with each other
+    laws::Restitution restitution;        // of particles with each other
+    std::vector<laws::Restitution> pairs; // of two classes, [classes first + second]; empty: all as above
     bool rough = false;
     double tangential = 1, friction = 0; // rough: eps_t, mu
     double contact_time = 0;             // collisions sooner after the last one are elastic, s
@@ -60,7 +61,14 @@ struct Setup {
     double kick_interval = 0; // between the kicks that make it up, s
     double scale = 1;         // of all radii at the start of the epoch
     double growth = 0;        // of this scale, 1/s
+    // Lees and Edwards: the box above is `offset` further along x at the start of the epoch, and glides.
+    double shear = 0;  // d u_x/d y of a flow without ends, 1/s; all directions are periodic then
+    double offset = 0; // m
 
+    [[nodiscard]] double image_speed() const { return shear * length(1); }                    // m/s
+    [[nodiscard]] double offset_at(double now) const { return offset + image_speed() * now; } // of the epoch
+    // Of the flow at a height, m/s.
+    [[nodiscard]] double flow(double y) const { return shear * (y - 0.5 * (lower[1] + upper[1])); }
     // Numbers of walls: sides 2 axis + upper, then curved ones.
     [[nodiscard]] int walls() const { return 6 + static_cast<int>(curved.size()); }
 
@@ -73,6 +81,11 @@ struct Setup {
     [[nodiscard]] bool has_walls() const;
     // For three cells in every periodic direction.
     [[nodiscard]] bool has_room_for_cells() const;
+    [[nodiscard]] const laws::Restitution& restitution_of(std::size_t i, std::size_t j) const {
+        return pairs.empty() ? restitution : pairs[classes.size() * i + j];
+    }
+    // Whether collisions of some of them take energy.
+    [[nodiscard]] bool dissipates() const;
     // One class of smooth particles, constant restitution, nothing else.
     [[nodiscard]] bool is_plain() const;
 };

@@ -26,9 +26,10 @@ Simulation::Simulation(Setup setup, const std::vector<Particle>& particles, simd
     : Algorithm(std::move(setup)), kernels_(&simd::edmd_kernels(isa)), threads_(threads),
       special_(!setup_.is_plain()) {
     const int space = setup_.dimension == 3 ? 1 : 0;
-    search_near_ = setup_.growth > 0 ? kernels_->growing[space]
-                   : special_        ? kernels_->general[space]
-                                     : kernels_->plain[space];
+    search_near_ = setup_.growth > 0   ? kernels_->growing[space]
+                   : setup_.shear != 0 ? kernels_->sheared[space]
+                   : special_          ? kernels_->general[space]
+                                       : kernels_->plain[space];
     for (const Class& c : setup_.classes) radius_.push_back(c.radius);
     states_.resize(particles.size());
     events_.resize(particles.size());
@@ -66,9 +67,10 @@ void Simulation::choose_cells() {
         cell_count_ *= view_.count[d];
     }
     for (int d = 0; d < setup_.dimension; ++d)
-        if (setup_.periodic[d] && view_.count[d] < 3)
-            fail(Exit::invalid_input, "the box has {} cells in a periodic direction, fewer than three",
-                 view_.count[d]);
+        if (const int needed = setup_.shear != 0 && d == 0 ? 4 : 3;
+            setup_.periodic[d] && view_.count[d] < needed)
+            fail(Exit::invalid_input, "the box has {} cells in a periodic direction, fewer than {}",
+                 view_.count[d], needed);
     plane_ = std::int64_t{view_.count[0]} * view_.count[1];
     cells_.resize(static_cast<std::size_t>(cell_count_));
     view_.radius = radius_.data();
@@ -150,6 +152,7 @@ void Simulation::set_epoch_end() {
 
 void Simulation::dispatch_predict_all() {
     view_.scale = setup_.scale;
+    count_columns();
     if (setup_.dimension == 2) {
         special_ ? predict_all<2, true>() : predict_all<2, false>();
     } else {
@@ -161,7 +164,8 @@ std::int64_t Simulation::run(std::int64_t events, double until) {
     std::int64_t done = 0;
     const std::int64_t whole = events_of_epoch(states_.size());
     while (done < events) {
-        const double stop = std::min(epoch_end_, next_kick()), end = std::min(stop, clock_.until(until));
+        const double stop = std::min({epoch_end_, next_kick(), next_slide()}),
+                     end = std::min(stop, clock_.until(until));
         now_ = clock_.now;
         const std::int64_t asked = std::min(events - done, whole - epoch_events_);
         const std::int64_t taken = setup_.dimension == 2
@@ -174,8 +178,10 @@ std::int64_t Simulation::run(std::int64_t events, double until) {
         const bool stopped = taken < asked && end == stop && end < never_meets;
         if (epoch_events_ == whole || (stopped && stop == epoch_end_))
             begin_epoch();
-        else if (stopped)
+        else if (stopped && stop == next_kick())
             kick();
+        else if (stopped)
+            setup_.dimension == 2 ? slide_rows<2>() : slide_rows<3>();
         else if (taken < asked)
             break;
     }
@@ -193,9 +199,7 @@ Drift Simulation::drift() const {
 
 // A kick changes all velocities; everything is predicted anew.
 void Simulation::kick() {
-    setup_.dimension == 2 ? synchronise<2>() : synchronise<3>();
-    restart_clock();
-    now_ = 0;
+    restart_epoch();
     const std::vector<std::uint32_t> at = order_by_id();
     std::vector<std::uint32_t> kinds;
     kinds.reserve(at.size());
@@ -203,6 +207,7 @@ void Simulation::kick() {
     const std::vector<Vector<double>> given = kicks(setup_, kinds, kicks_++);
     for (std::size_t n = 0; n < at.size(); ++n) {
         double(&v)[3] = states_[at[n]].velocity;
+        tally_.add_kick(setup_.classes[kinds[n]].mass, {v[0], v[1], v[2]}, given[n]);
         v[0] += given[n].x, v[1] += given[n].y, v[2] += given[n].z;
         events_[at[n]].last = no_partner;
     }
@@ -212,11 +217,22 @@ void Simulation::kick() {
     dispatch_predict_all();
 }
 
-void Simulation::begin_epoch() {
+// The present becomes time zero.
+void Simulation::restart_epoch() {
     setup_.dimension == 2 ? synchronise<2>() : synchronise<3>();
+    const double before = setup_.offset_at(now_);
     restart_clock();
-    check_course(drift());
     now_ = 0;
+    if (setup_.shear == 0) return;
+    // The boxes above stand some lengths of a box less along x. Who has just left its box in y, and by
+    // rounding was not folded back, counts them.
+    const std::int64_t less = std::llround((before - setup_.offset) / setup_.length(0));
+    for (HardState& s : states_) s.word += static_cast<std::uint64_t>(less * simd::image_of(s, 1));
+}
+
+void Simulation::begin_epoch() {
+    restart_epoch();
+    check_course(drift());
     sort_by_cell();
     set_epoch_end();
     dispatch_predict_all();

@@ -37,8 +37,9 @@ private:
     template <int dimension, bool special> void cross(std::uint32_t i);
     template <int dimension, bool special> void collide_pair(std::uint32_t i, std::uint32_t j);
     template <int dimension> void meet_side(std::uint32_t i, std::uint32_t wall);
-    template <int dimension> void settle(std::uint32_t i, const Body& body, std::uint32_t partner);
-    template <int dimension> void fold(std::uint32_t i);
+    template <int dimension, bool special>
+    void settle(std::uint32_t i, const Body& body, std::uint32_t partner);
+    template <int dimension, bool special> void fold(std::uint32_t i);
     // layer < 0: the complete search, else of what is new through that face.
     template <int dimension, bool special> void search(std::uint32_t i, int layer);
     template <int dimension, bool special> void look_for_crossing(std::uint32_t i);
@@ -46,6 +47,17 @@ private:
     template <int dimension, bool special>
     [[nodiscard]] bool still_meets(std::uint32_t i, std::uint32_t j, double time) const;
     template <int dimension> [[nodiscard]] Vector<double> shift_of(std::uint32_t i, std::uint32_t j) const;
+    // Of a sheared gas: boxes between i and the image of j that its cell faces. False: it faces none.
+    template <int dimension>
+    bool boxes_between(std::uint32_t i, std::uint32_t j, std::array<std::int64_t, 3>& boxes) const;
+    template <int dimension>
+    [[nodiscard]] Image image_between(std::uint32_t i, std::uint32_t j, double now) const;
+    template <int dimension> void find_column(std::uint32_t i);
+    template <int dimension> void slide_rows();
+    template <int dimension> void search_again(std::uint32_t i);
+    void count_columns();
+    [[nodiscard]] double next_slide() const;
+    void restart_epoch();
     template <int dimension> [[nodiscard]] bool just_met(std::uint32_t i, std::uint32_t j) const;
     template <int dimension, bool special> void predict_all();
     template <int dimension, class Row> void for_rows(std::uint32_t i, int layer, const Row& row) const;

@@ -306,6 +306,8 @@ std::vector<Particle> make_particles(const Setup& setup, const Amounts& amounts,
         }
     place(setup, particles, start);
     heat(setup, particles, temperature, spin_temperature);
+    if (setup.shear != 0)
+        for (Particle& p : particles) p.velocity[0] += setup.flow(p.place[1]);
     return particles;
 }
 

@@ -51,6 +51,7 @@ std::string Simulation::frame() const {
     }
     out.put(static_cast<std::uint64_t>(states_.size()));
     out.put(setup_.rough);
+    out.put(setup_.shear);
     out.put(setup_.kicks);
     out.put(setup_.kick_interval);
     for (const Class& c : setup_.classes) {

@@ -116,6 +116,18 @@ SANDLANE_INLINE R pair_time(const Flight<R>& i, const Flight<R>& j, const Vector
     return p.base + meeting<dimension>(p.place, p.velocity, reach, never);
 }
 
+// The same for the image of j that is `turns` boxes above i besides, boxes that glide along x: each is offset
+// + speed t further than the one below it (Lees and Edwards).
+template <int dimension, class R>
+SANDLANE_INLINE R sheared_pair_time(const Flight<R>& i, const Flight<R>& j, const Vector<R>& shift,
+                                    const R& turns, const R& reach, const R& offset, const R& speed,
+                                    const R& never) {
+    Relative<R> p = relative<dimension, false>(i, j, shift, Vector<R>{});
+    p.place.x = p.place.x - turns * (offset + speed * p.base);
+    p.velocity.x = p.velocity.x - turns * speed;
+    return p.base + meeting<dimension>(p.place, p.velocity, reach, never);
+}
+
 // The same for radii scale + growth t times as large.
 template <int dimension, class R>
 SANDLANE_INLINE R growing_pair_time(const Flight<R>& i, const Flight<R>& j, const Vector<R>& shift,

@@ -67,6 +67,7 @@ struct Dsmc {
     std::array<std::int64_t, 3> cells{}; // 0: chosen
     CollisionScheme scheme = CollisionScheme::no_time_counter;
     bool enskog = false;
+    std::int64_t near_partners = 1;
     double dt = 0; // s; 0: chosen
     bool adaptive = false;
     double duration = 0;
@@ -99,6 +100,7 @@ struct Edmd {
     EventAlgorithm algorithm = EventAlgorithm::automatic;
     double duration = 0;
     std::int64_t events = 0; // the run ends after so many; 0: only by its duration
+    std::int64_t replicas = 1;
     EventStart start = EventStart::automatic;
     double growth_rate = 0.05;                // of radii, in units of the thermal speed
     double heating = 0, heating_interval = 0; // white noise xi^2, m^2/s^3; s between kicks, 0: chosen

@@ -129,6 +129,9 @@ const Table<Dsmc>& dsmc_table() {
                     "gas with exact solutions")
             .flag("enskog", &Dsmc::enskog,
                   "more collisions by the pair correlation at contact of the cell's density")
+            .integer("near_partners", &Dsmc::near_partners, between(1, 5),
+                     "a particle that may collide takes the nearest of so many partners drawn from its cell: "
+                     "pairs are closer, and cells that are too long falsify gradients less")
             .number("dt", &Dsmc::dt, Unit::time, not_negative(),
                     "time step; 0: 0.1 collisions per particle, and fast particles cross half a cell at most")
             .flag("adaptive", &Dsmc::adaptive, "the time step grows as 1/sqrt(T)")
@@ -191,6 +194,11 @@ const Table<Edmd>& edmd_table() {
                     "simulated time; 0: no end by time")
             .integer("events", &Edmd::events, between(0, 9e15),
                      "the run ends after so many; 0: by its duration")
+            .integer(
+                "replicas", &Edmd::replicas, between(1, 10000),
+                "independent runs, of this seed and those after it, which threads take on at the same time: "
+                "log.csv has means and their standard errors, columns NAME_error; profile.csv and "
+                "distribution.csv average over all. Events count in the first one, which pictures show")
             .choice(
                 "start", &Edmd::start, {"auto", "random", "lattice", "growth"},
                 "\"growth\": small particles placed at random that grow while they collide, for dense gases "

@@ -16,9 +16,23 @@ namespace {
 constexpr const char* side_names[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
 
 struct GasValidator : Validator {
-    void refuse_shear() const {
-        if (scene.domain.shear_rate != 0)
-            reject("domain.shear_rate = {}: is not known to this method; use 0", scene.domain.shear_rate);
+    // Of event-driven dynamics.
+    void check_shear_without_walls() const {
+        const Domain& d = scene.domain;
+        if (d.shear_rate == 0) return;
+        for (const AxisOfSpace& axis : axes(d.dimension))
+            if (!d.periodic[axis.index])
+                reject(
+                    "domain.shear_rate: {} needs a domain that is periodic in all directions; add \"{}\" to "
+                    "domain.periodic",
+                    d.shear_rate, axis.name);
+        if (d.gravity.x != 0 || d.gravity.y != 0 || (d.dimension == 3 && d.gravity.z != 0))
+            reject("domain.shear_rate: {} and gravity: a sheared box would fall; leave out one",
+                   d.shear_rate);
+        if (scene.edmd.structure_every > 0)
+            reject(
+                "edmd.structure_every: waves and clusters across a sheared side are not followed; leave it "
+                "out, or domain.shear_rate");
     }
     void check_sheared_gas() const {
         check_shear();
@@ -192,11 +206,12 @@ struct GasValidator : Validator {
             reject("dsmc.profile_axis: a plane has no z axis");
         if (d.scheme == CollisionScheme::maxwell && !scene.species.empty())
             reject("dsmc.scheme = \"maxwell\": knows one kind of particles; leave out [[species]]");
+        if (d.near_partners > 1 && d.scheme != CollisionScheme::no_time_counter)
+            reject("dsmc.near_partners = {}: goes with scheme = \"no-time-counter\"; use 1", d.near_partners);
         if (d.adaptive && d.heating > 0)
             reject("dsmc.adaptive: a heated gas does not cool down; leave out adaptive or heating");
     }
 
-    // What only some methods can do with several kinds of particles.
     void check_mixture(std::size_t most_kinds) const {
         if (scene.species.size() + 1 > most_kinds)
             reject("species: {} of them; allowed: up to {} with this method", scene.species.size(),
@@ -204,6 +219,10 @@ struct GasValidator : Validator {
         double count = static_cast<double>(scene.gas.particles);
         for (const Species& more : scene.species) count += static_cast<double>(more.particles);
         if (count > 2e9) reject("gas.particles: {:.4g} with all species; allowed: up to 2e9", count);
+        check_pairs();
+    }
+
+    void check_pairs() const {
         const auto kinds = static_cast<std::int64_t>(scene.species.size()) + 1;
         for (std::size_t n = 0; n < scene.gas_pairs.size(); ++n) {
             const GasPair& pair = scene.gas_pairs[n];
@@ -227,6 +246,9 @@ struct GasValidator : Validator {
                        "restitution",
                        n);
         }
+        constexpr std::int64_t most = 1000; // of which all pairs are kept
+        if (kinds > most && !scene.gas_pairs.empty())
+            reject("gas_pairs: go with up to {} kinds of particles; there are {}", most, kinds);
         if (kinds == 1 && !scene.gas_pairs.empty())
             reject("gas_pairs: there is one kind of particles; give gas.restitution, or gas.dissipation, or "
                    "[[species]]");
@@ -244,8 +266,6 @@ struct GasValidator : Validator {
             longest = std::max(longest, more.diameter);
         }
         if (count > 1e9) reject("gas.particles: {:.4g} with all species; allowed: up to 1e9", count);
-        if (scene.species.size() > 65000)
-            reject("species: {} of them; allowed: up to 65000", scene.species.size());
         if (longest > 100 * shortest)
             reject("species.diameter: {} m and {} m; allowed: a ratio up to 100", shortest, longest);
         for (const AxisOfSpace& axis : axes(scene.domain.dimension)) {
@@ -284,9 +304,10 @@ struct GasValidator : Validator {
 void validate_edmd(const Scene& scene, const std::string& file) {
     const GasValidator v{{scene, file}};
     v.check_domain();
-    v.refuse_shear();
+    v.check_shear_without_walls();
     v.check_gas(scene.domain.dimension == 3 ? 0.7405 : 0.9069, "the closest packing");
     for (std::size_t n = 0; n < scene.sides.size(); ++n) v.check_side(n);
+    v.check_mixture(65001);
     v.check_edmd();
     check_watch(scene, file);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace sandlane::test {
 
@@ -79,25 +80,78 @@ TEST_F(Events, GoOnAfterACheckpoint) {
     EXPECT_EQ(read("once/log.csv").substr(0, 300), log.substr(0, 300));
 }
 
-// The times of the rows of log.csv.
-std::vector<double> times_of(const std::string& log) {
-    std::vector<double> times;
-    for (std::size_t at = log.find('\n'); at != std::string::npos && at + 1 < log.size();
-         at = log.find('\n', at + 1))
-        times.push_back(std::stod(log.substr(at + 1)));
-    return times;
+// A column of log.csv.
+std::vector<double> column(const std::string& log, const std::string& name) {
+    std::istringstream lines(log);
+    std::string line, cell;
+    std::getline(lines, line);
+    std::istringstream header(line);
+    std::size_t at = 0;
+    while (std::getline(header, cell, ',') && cell != name) ++at;
+    std::vector<double> values;
+    while (std::getline(lines, line)) {
+        std::istringstream cells(line);
+        for (std::size_t n = 0; n <= at; ++n) std::getline(cells, cell, ',');
+        values.push_back(std::stod(cell));
+    }
+    return values;
+}
+
+// Means of independent runs with their errors; each replica is the run of its own seed.
+TEST_F(Events, Replicas) {
+    write("hard.toml", hard_scene);
+    const std::vector<std::string> three = {"--set", "edmd.replicas=3", "--set", "edmd.duration=2"};
+    const auto with = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), three.begin(), three.end());
+        return arguments;
+    };
+    run_well(with({"run", "hard.toml", "--quiet", "--out", "all", "--threads", "2"}));
+    const std::string log = read("all/log.csv");
+    EXPECT_SAYS(log.substr(0, log.find('\n')), "temperature_error[J]");
+    EXPECT_SAYS(read("all/plan.txt"), "3, of seeds 1 to 3");
+    double temperature = 0;
+    for (const char* seed : {"1", "2", "3"}) {
+        run_well({"run", "hard.toml", "--quiet", "--out", seed, "--set", "edmd.duration=2", "--set",
+                  std::string("seed=") + seed});
+        temperature += column(read(std::string(seed) + "/log.csv"), "temperature[J]").back() / 3;
+    }
+    EXPECT_NEAR(column(log, "temperature[J]").back(), temperature, 1e-7);
+    run_well(with({"run", "hard.toml", "--quiet", "--out", "parts", "--steps", "300"}));
+    run_well({"run", "--resume", latest_checkpoint("parts"), "--quiet"});
+    EXPECT_EQ(json_of(read("all/summary.json"))["state_hash"],
+              json_of(read("parts/summary.json"))["state_hash"]);
+    EXPECT_EQ(read("parts/log.csv"), log);
+    EXPECT_SAYS(run_well(with({"compare", "hard.toml", "--steps", "200"})).out, "identical, bit for bit");
+}
+
+// Shear without walls: compare, checkpoints, the stress in the log.
+TEST_F(Events, ShearFlow) {
+    const std::string open =
+        replaced(hard_scene, "[[sides]]\nside = \"-z\"\nkind = \"heated\"\ntemperature = 1\n", "");
+    write("shear.toml",
+          replaced(open, "periodic = [\"x\", \"y\"]", "periodic = [\"x\", \"y\", \"z\"]\nshear_rate = 0.5"));
+    EXPECT_SAYS(run_well({"compare", "shear.toml", "--steps", "500"}).out, "identical, bit for bit");
+    run_well({"run", "shear.toml", "--quiet", "--out", "once"});
+    run_well({"run", "shear.toml", "--quiet", "--out", "parts", "--steps", "700"});
+    run_well({"run", "--resume", latest_checkpoint("parts"), "--quiet"});
+    EXPECT_EQ(read("once/log.csv"), read("parts/log.csv"));
+    EXPECT_GT(column(read("once/log.csv"), "shear_stress[Pa]").back(), 0);
+    write("walls.toml", replaced(hard_scene, "dimension = 3", "dimension = 3\nshear_rate = 0.5"));
+    const Outcome refused = run({"run", "walls.toml", "--quiet"});
+    EXPECT_EQ(refused.code, code_of(Exit::invalid_input));
+    EXPECT_SAYS(refused.err, "add \"z\" to domain.periodic");
 }
 
 TEST_F(Events, OutputsFollowTheClock) {
     write("hard.toml", hard_scene);
     run_well({"run", "hard.toml", "--quiet", "--out", "even", "--set", "output.log_every=0.5"});
-    const auto even = times_of(read("even/log.csv"));
+    const auto even = column(read("even/log.csv"), "time[s]");
     ASSERT_EQ(even.size(), 21U);
     for (std::size_t k = 0; k < even.size(); ++k)
         EXPECT_NEAR(even[k], 0.5 * static_cast<double>(k), 1e-6) << k;
     run_well({"run", "hard.toml", "--quiet", "--out", "log", "--set", "output.log_every=0.1", "--set",
               "edmd.output_spacing=log-time"});
-    const auto log = times_of(read("log/log.csv"));
+    const auto log = column(read("log/log.csv"), "time[s]");
     ASSERT_EQ(log.size(), 42U); // at the start, at 0.1, and twenty for each of two decades
     for (std::size_t k = 2; k < log.size(); ++k) EXPECT_NEAR(log[k] / log[k - 1], std::pow(10, 0.05), 1e-5);
     // Where outputs stop the run leaves no trace in it.

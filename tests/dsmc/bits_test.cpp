@@ -20,6 +20,14 @@ std::vector<Case> cases() {
     };
     add("space", test::gas(3, 0.9, 6000, 12), 6000);
     add("plane", test::gas(2, 0.8, 5000, 30), 5000);
+    dsmc::Setup near = test::gas(3, 0.9, 6000, 12);
+    near.partners = 5;
+    add("near", near, 6000);
+    near = test::gas(2, 0.9, 5000, 20);
+    near.cells[0] = 1;
+    near.partners = 3;
+    near.others = {{2, 1.3, 0.3}};
+    add("near_mixture", near, 5000);
     dsmc::Setup s = test::gas(3, 1, 6000, 11);
     s.restitution.model = laws::Restitution::Model::viscoelastic;
     s.restitution.dissipation = 0.05;

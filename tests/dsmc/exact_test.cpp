@@ -47,6 +47,16 @@ std::array<double, 2> moments(const dsmc::Simulation& gas) {
     return {four / n / (d * (d + 2) * t * t), six / n / (d * (d + 2) * (d + 4) * t * t * t)};
 }
 
+// Elastic spheres under shear in a cube, n s^2 = 0.1.
+dsmc::Setup sheared(std::uint32_t n, double edge, std::int32_t cells) {
+    dsmc::Setup s = test::gas(3, 1, n, cells);
+    for (int d = 0; d < 3; ++d) s.upper[d] = edge;
+    s.weight = 0.1 * s.volume() / n;
+    return s;
+}
+
+constexpr double chapman_enskog = 1.016 * 5 / (16 * 1.7724538509055160); // eta/sqrt(m T)
+
 } // namespace
 
 // K = 1 - (1 - K_0) exp(-lambda t), lambda = nu/6 in space and 2 nu/15 in the plane; <v^4> is K (2 - K) and
@@ -81,9 +91,7 @@ TEST(Exact, BobylevKrookWuSlow) {
 // times 1.016, and is heated by what the stress works: both within the noise of 3 %.
 TEST(Exact, ViscositySlow) {
     const std::uint32_t n = 60000;
-    dsmc::Setup s = test::gas(3, 1, n, 14); // cells of half a mean free path
-    for (int d = 0; d < 3; ++d) s.upper[d] = 14;
-    s.weight = 0.1 * s.volume() / n;
+    dsmc::Setup s = sheared(n, 14, 14); // cells of half a mean free path
     s.shear = 0.05;
     dsmc::Simulation gas(s, dsmc::maxwellian(s, n, 1), simd::available_isas().back(), 1);
     gas.run(100);
@@ -96,8 +104,30 @@ TEST(Exact, ViscositySlow) {
         viscosity += o.shear_stress / s.shear / std::sqrt(o.temperature) / frames;
         work += o.shear_stress * s.shear * s.volume() * 4 * s.dt;
     }
-    EXPECT_NEAR(viscosity / (1.016 * 5 / (16 * std::sqrt(std::numbers::pi))), 1, 0.04);
+    EXPECT_NEAR(viscosity / chapman_enskog, 1, 0.04);
     EXPECT_NEAR((gas.observe().energy - before) / work, 1, 0.04);
+}
+
+// Pairs of long cells carry momentum from one end to the other: cells of two mean free paths make the
+// viscosity that heats the gas too large by 16/(45 pi) 2^2 = 45 % (specification 4.3), near partners by a
+// third of that. The noise is 4 %.
+TEST(Exact, NearPartnersSlow) {
+    const std::uint32_t n = 30000;
+    for (const std::int32_t partners : {1, 5}) {
+        dsmc::Setup s = sheared(n, 45, 10);
+        s.partners = partners;
+        s.shear = 0.05;
+        dsmc::Simulation gas(s, dsmc::maxwellian(s, n, 1), simd::available_isas().back(), 1);
+        gas.run(100);
+        const double before = gas.observe().energy;
+        double clock = 0; // integral of sqrt(T)
+        for (int f = 0; f < 120; ++f) {
+            gas.run(10);
+            clock += 10 * s.dt * std::sqrt(gas.observe().temperature);
+        }
+        const double viscosity = (gas.observe().energy - before) / (s.shear * s.shear * s.volume() * clock);
+        EXPECT_NEAR(viscosity / chapman_enskog, partners == 1 ? 1.45 : 1.15, 0.1) << partners;
+    }
 }
 
 // A granular gas under shear comes to the temperature at which collisions take what the shear gives. Grad's

@@ -1,5 +1,6 @@
 // Gases against theory and against numbers of independent programs
 // (specification, 12.9, 12.10, 12.14, 12.15).
+#include "analysis/gas_mixture.hpp"
 #include "analysis/gas_theory.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
@@ -12,9 +13,7 @@ using namespace sandlane;
 
 namespace {
 
-simd::Isa widest() {
-    return simd::available_isas().back();
-}
+using test::widest;
 
 double temperature(const edmd::Algorithm& run) {
     return edmd::observe(run.setup(), run.particles()).temperature;
@@ -190,6 +189,55 @@ TEST(SlowEdmdGas, TemperaturesOfMixtures) {
         else
             EXPECT_GT(ratio, 1.15);
     }
+}
+
+// What walls and kicks give and collisions take is what the gas has.
+TEST(EdmdGas, EnergyBalance) {
+    edmd::Setup plain = test::hard_gas(2, 0.3, 0.8, 200);
+    edmd::Setup driven = test::hard_gas(3, 0.1, 0.9, 200);
+    driven.classes = {{0.5, 1, 0.4}, {0.3, 0.5, 0.4}};
+    driven.pairs.assign(4, driven.restitution);
+    driven.pairs[1].eps = driven.pairs[2].eps = 0.6;
+    driven.kicks = 0.1;
+    driven.kick_interval = 0.05;
+    edmd::Setup rough = test::hard_gas(3, 0.1, 0.9, 200);
+    rough.rough = true;
+    rough.tangential = 0.3;
+    rough.friction = 0.2;
+    rough.elastic_speed = 0.01;
+    rough.periodic[2] = false;
+    rough.side[2][0].motion = {0.2, 0.7, 0};
+    for (const edmd::Setup& s : {plain, driven, rough}) {
+        const edmd::Amounts amounts = s.classes.size() == 2 ? edmd::Amounts{100, 100} : edmd::Amounts{200};
+        edmd::Simulation gas(s, edmd::make_particles(s, amounts, 1.0, s.rough ? 1 : 0), widest(), 1);
+        const double before = edmd::observe(s, gas.particles()).energy;
+        gas.run(4000);
+        const edmd::Tally& t = gas.tally();
+        const double after = edmd::observe(s, gas.particles()).energy;
+        EXPECT_GT(t.lost, 10);
+        EXPECT_EQ(t.heat > 1, s.kicks > 0);
+        EXPECT_NEAR(after, before + t.wall_energy + t.heat - t.lost, 1e-11 * before);
+    }
+}
+
+// Two kinds that lose energy only to each other: the temperatures of theory, for equal particles with the
+// same loss for both, and slower cooling than if all lost.
+TEST(SlowEdmdGas, RestitutionOfPairs) {
+    const std::uint32_t n = 1000;
+    edmd::Setup s = test::hard_gas(3, 0.02, 1, 2 * n);
+    s.classes = {{0.5, 1, 0.4}, {0.5, 4, 0.4}};
+    s.pairs.assign(4, s.restitution);
+    s.pairs[1].eps = s.pairs[2].eps = 0.7;
+    edmd::Simulation gas(s, edmd::make_particles(s, {n, n}, 1.0), widest(), 1);
+    gas.run(1 << 30, 60);
+    analysis::MixtureGas theory;
+    theory.dense = true;
+    theory.kinds = {{n / s.volume(), 1, 1}, {n / s.volume(), 4, 1}};
+    theory.restitution = s.pairs;
+    const auto expected = analysis::cooling_curves(theory, 1.0, {60}).front();
+    const auto found = edmd::observe(s, gas.particles()).of_class;
+    for (std::size_t k = 0; k < 2; ++k) // sqrt(2/(3 n)) of each, three times
+        EXPECT_NEAR(found[k] / expected[k], 1, 0.08) << k;
 }
 
 // Without rules an inelastic gas in the plane runs into collapse; with a contact time it goes on.

@@ -5,6 +5,8 @@
 #include "edmd/simulation.hpp"
 #include "edmd/start.hpp"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -29,6 +31,32 @@ template <class Algorithm> std::vector<edmd::Event> events_of(Algorithm& algorit
     algorithm.run(n);
     algorithm.log().record(nullptr);
     return events;
+}
+
+inline simd::Isa widest() {
+    return simd::available_isas().back();
+}
+
+// The same events by both algorithms and all instruction sets, also in pieces and from a checkpoint.
+inline void expect_same_events(const edmd::Setup& s, const std::vector<edmd::Particle>& particles,
+                               std::int64_t events) {
+    edmd::SimpleAlgorithm simple(s, particles);
+    const auto expected = events_of(simple, events);
+    ASSERT_EQ(static_cast<std::int64_t>(expected.size()), events);
+    for (const simd::Isa isa : simd::available_isas()) {
+        SCOPED_TRACE(std::string(simd::isa_name(isa)));
+        edmd::Simulation improved(s, particles, isa, 1);
+        const auto found = events_of(improved, events);
+        ASSERT_EQ(found.size(), expected.size());
+        for (std::size_t n = 0; n < found.size(); ++n) ASSERT_EQ(found[n], expected[n]) << n;
+        EXPECT_EQ(simple.state_hash(), improved.state_hash());
+        EXPECT_EQ(simple.tally().wall_energy, improved.tally().wall_energy);
+    }
+    edmd::Simulation parts(s, particles, widest(), 2), resumed(s, particles, widest(), 3);
+    parts.run(events / 3);
+    resumed.restore(parts.serialise());
+    resumed.run(events - events / 3);
+    EXPECT_EQ(simple.state_hash(), resumed.state_hash());
 }
 
 } // namespace sandlane::test

@@ -15,11 +15,10 @@ using namespace sandlane;
 
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
+using test::expect_same_events;
+using test::widest;
 
-simd::Isa widest() {
-    return simd::available_isas().back();
-}
+constexpr double never = std::numeric_limits<double>::infinity();
 
 edmd::Particle at(std::array<double, 3> place, std::array<double, 3> velocity) {
     edmd::Particle p;
@@ -30,28 +29,6 @@ edmd::Particle at(std::array<double, 3> place, std::array<double, 3> velocity) {
 
 double temperature(const edmd::Algorithm& run) {
     return edmd::observe(run.setup(), run.particles()).temperature;
-}
-
-// The same events by both algorithms and all instruction sets, also in pieces and from a checkpoint.
-void expect_same_events(const edmd::Setup& s, const std::vector<edmd::Particle>& particles,
-                        std::int64_t events) {
-    edmd::SimpleAlgorithm simple(s, particles);
-    const auto expected = test::events_of(simple, events);
-    ASSERT_EQ(static_cast<std::int64_t>(expected.size()), events);
-    for (const simd::Isa isa : simd::available_isas()) {
-        SCOPED_TRACE(std::string(simd::isa_name(isa)));
-        edmd::Simulation improved(s, particles, isa, 1);
-        const auto found = test::events_of(improved, events);
-        ASSERT_EQ(found.size(), expected.size());
-        for (std::size_t n = 0; n < found.size(); ++n) ASSERT_EQ(found[n], expected[n]) << n;
-        EXPECT_EQ(simple.state_hash(), improved.state_hash());
-        EXPECT_EQ(simple.tally().wall_energy, improved.tally().wall_energy);
-    }
-    edmd::Simulation parts(s, particles, widest(), 2), resumed(s, particles, widest(), 3);
-    parts.run(events / 3);
-    resumed.restore(parts.serialise());
-    resumed.run(events - events / 3);
-    EXPECT_EQ(simple.state_hash(), resumed.state_hash());
 }
 
 // A box with walls all around and a curved one.

@@ -1,4 +1,5 @@
 // The scenes of event-driven dynamics, some of them smaller: what they show must happen.
+#include "analysis/gas_mixture.hpp"
 #include "core/error.hpp"
 #include "edmd/plan.hpp"
 #include "scene/reader.hpp"
@@ -104,6 +105,49 @@ TEST(SlowShippedEvents, WhiteNoiseHoldsTheTemperature) {
         sum += gas.over_theory() / 100;
     }
     EXPECT_NEAR(sum, 1, 0.04);
+}
+
+// Collisions take what the stress works: of 500 s, with the fluctuations of the stress of 1000 spheres.
+TEST(SlowShippedEvents, ShearHeatsWhatCollisionsCool) {
+    const Events gas("sheared-spheres.toml");
+    gas.to(100);
+    const edmd::Setup& s = gas.plan.setup;
+    const double lost = gas.run->tally().lost, shear = gas.run->tally().shear;
+    double temperature = 0, flux = 0;
+    constexpr int frames = 500;
+    for (int k = 1; k <= frames; ++k) {
+        gas.to(100 + k);
+        const auto o = edmd::observe(s, gas.run->particles());
+        temperature += o.temperature / frames;
+        flux += o.flux / frames;
+    }
+    const double stress = -(flux + (gas.run->tally().shear - shear) / frames) / s.volume();
+    EXPECT_NEAR(temperature, 1, 0.1);
+    EXPECT_NEAR(stress * s.shear * s.volume() * frames / (gas.run->tally().lost - lost), 1, 0.05);
+}
+
+// Heat and losses are all that changes the energy, and theory knows the temperatures of both kinds: 400 discs
+// of each for five times of relaxation, and 3 % for its Maxwellians.
+TEST(SlowShippedEvents, TwoMaterials) {
+    const Events gas("two-materials.toml");
+    const double start = edmd::observe(gas.plan.setup, gas.run->particles()).energy;
+    double ratio = 0;
+    for (int k = 1; k <= 100; ++k) {
+        gas.to(50 + k);
+        const auto t = edmd::observe(gas.plan.setup, gas.run->particles()).of_class;
+        ratio += t[1] / t[0] / 100;
+    }
+    const edmd::Tally& t = gas.run->tally();
+    EXPECT_NEAR(edmd::observe(gas.plan.setup, gas.run->particles()).energy, start + t.heat - t.lost,
+                1e-9 * start);
+    analysis::MixtureGas theory;
+    theory.dimension = 2;
+    theory.dense = true;
+    theory.kicks = gas.plan.setup.kicks;
+    theory.kinds = {{400 / gas.plan.setup.volume(), 1, 1}, {400 / gas.plan.setup.volume(), 3, 1.2}};
+    theory.restitution = gas.plan.setup.pairs;
+    const auto expected = analysis::cooling_curves(theory, 1, {1000}).front();
+    EXPECT_NEAR(ratio / (expected[1] / expected[0]), 1, 0.07);
 }
 
 // Grown and aged, spheres beyond freezing still follow the fluid of Carnahan and Starling, who say 19.9; a

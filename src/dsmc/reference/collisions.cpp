@@ -52,8 +52,9 @@ template <int dimension, bool rough> GasCollisions collide_gas(const GasCollisio
         result.candidates += candidates;
         for (std::uint32_t k = 0; k < candidates; ++k) {
             const PhiloxCounter w = draw(view.random, k, cell, GasStream::candidate);
-            const auto [first, second] = pair_of(w, n);
-            const std::int32_t i = begin + first, j = begin + second;
+            const auto drawn = pair_of(w, n);
+            const std::int32_t i = begin + drawn[0],
+                               j = begin + nearest_partner(view, k, cell, begin, n, drawn);
             const Vector<double> g = velocity_of(view.rows.velocity, i) - velocity_of(view.rows.velocity, j);
             const double speed = std::sqrt(dot(g, g));
             const double counts = frequency(dimension, view, crowd, i, j) * speed;

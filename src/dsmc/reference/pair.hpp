@@ -40,12 +40,36 @@ inline void tell(const GasCollisionView& view, std::uint32_t cell, std::uint32_t
     view.listener.hear(view.listener.to, {cell, k, identity(i), identity(j), accepted});
 }
 
+// Number of one of n particles that is not i.
+inline std::int32_t other_than(std::int32_t i, std::uint32_t word, std::int32_t n) {
+    const auto j = static_cast<std::int32_t>(std::uint64_t{word} * static_cast<std::uint64_t>(n - 1) >> 32);
+    return j >= i ? j + 1 : j;
+}
 // Number of the first of two different particles of n, and of the second.
 inline std::array<std::int32_t, 2> pair_of(const PhiloxCounter& w, std::int32_t n) {
     const auto i = static_cast<std::int32_t>(std::uint64_t{w[0]} * static_cast<std::uint64_t>(n) >> 32);
-    auto j = static_cast<std::int32_t>(std::uint64_t{w[1]} * static_cast<std::uint64_t>(n - 1) >> 32);
-    if (j >= i) ++j;
-    return {i, j};
+    return {i, other_than(i, w[1], n)};
+}
+
+// Number of the second of candidate k: of the one drawn and of more, the nearest to the first.
+inline std::int32_t nearest_partner(const GasCollisionView& view, std::uint32_t k, std::uint32_t cell,
+                                    std::int32_t begin, std::int32_t n,
+                                    const std::array<std::int32_t, 2>& pair) {
+    if (view.partners == 1) return pair[1];
+    const PhiloxCounter w = draw(view.random, k, cell, GasStream::partner);
+    const auto square_to = [&](std::int32_t other) {
+        const double* x = view.rows.place + std::ptrdiff_t{begin + pair[0]} * gas_row;
+        const double* y = view.rows.place + std::ptrdiff_t{begin + other} * gas_row;
+        double sum = 0;
+        for (int d = 0; d < 3; ++d) sum += view.near_axis[d] * ((x[d] - y[d]) * (x[d] - y[d]));
+        return sum;
+    };
+    std::int32_t best = pair[1];
+    for (std::size_t more = 0; more + 1 < static_cast<std::size_t>(view.partners); ++more) {
+        const std::int32_t other = other_than(pair[0], w[more], n);
+        if (square_to(other) < square_to(best)) best = other;
+    }
+    return best;
 }
 
 // Direction e of candidate k of a cell, of density |g.e|.

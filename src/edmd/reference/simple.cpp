@@ -24,8 +24,25 @@ void fly(const Setup& setup, laws::Flight<double>& f, double dt) {
         laws::fly<3, true>(f, dt, vector_of(setup.gravity));
 }
 
+Vector<double> at_rest(const Setup& setup, const std::array<std::int64_t, 3>& boxes) {
+    double shift[3] = {0, 0, 0};
+    for (int d = 0; d < setup.dimension; ++d)
+        if (setup.periodic[d])
+            shift[d] = static_cast<double>(boxes[static_cast<std::size_t>(d)]) * setup.length(d);
+    return vector_of(shift);
+}
+
+// Of i with the image of j so many boxes away.
 double pair_time(const Setup& setup, const laws::Flight<double>& i, const laws::Flight<double>& j,
-                 const Vector<double>& shift, double reach) {
+                 const std::array<std::int64_t, 3>& boxes, double reach) {
+    const Vector<double> shift = at_rest(setup, boxes);
+    if (setup.shear != 0) {
+        const auto up = static_cast<double>(boxes[1]);
+        const double speed = setup.image_speed();
+        return setup.dimension == 2
+                   ? laws::sheared_pair_time<2, double>(i, j, shift, up, reach, setup.offset, speed, never)
+                   : laws::sheared_pair_time<3, double>(i, j, shift, up, reach, setup.offset, speed, never);
+    }
     if (setup.growth > 0)
         return setup.dimension == 2
                    ? laws::growing_pair_time<2, double>(i, j, shift, reach, setup.scale, setup.growth, never)
@@ -74,25 +91,31 @@ SimpleAlgorithm::Next SimpleAlgorithm::next_of_pair(std::size_t i, std::size_t j
     std::int64_t nearest[3] = {0, 0, 0}, width[3] = {0, 0, 0};
     double horizon = never;
     const Vector<double> v = p.velocity - q.velocity;
+    double fastest = std::sqrt(dot(v, v));
     for (int d = 0; d < setup_.dimension; ++d) {
         if (!setup_.periodic[d]) continue;
         nearest[d] = std::llrint(apart[d] / setup_.length(d));
         width[d] = 1;
-        const double speed = std::sqrt(dot(v, v));
-        if (speed > 0) horizon = std::min(horizon, (setup_.length(d) / 2 - 1e-9 * reach) / speed);
     }
     std::array<std::int64_t, 3> k{};
     for (k[2] = nearest[2] - width[2]; k[2] <= nearest[2] + width[2]; ++k[2])
-        for (k[1] = nearest[1] - width[1]; k[1] <= nearest[1] + width[1]; ++k[1])
+        for (k[1] = nearest[1] - width[1]; k[1] <= nearest[1] + width[1]; ++k[1]) {
+            if (setup_.shear != 0) { // boxes above are elsewhere along x, and move
+                const Image above = image_of(setup_, {0, k[1], 0}, clock_.now);
+                const Vector<double> u = v - Vector<double>{above.speed, 0, 0};
+                nearest[0] = std::llrint((apart[0] - above.shift.x) / setup_.length(0));
+                fastest = std::max(fastest, std::sqrt(dot(u, u)));
+            }
             for (k[0] = nearest[0] - width[0]; k[0] <= nearest[0] + width[0]; ++k[0]) {
-                double shift[3] = {0, 0, 0};
-                for (std::size_t d = 0; d < 3; ++d)
-                    if (setup_.periodic[d] && d < static_cast<std::size_t>(setup_.dimension))
-                        shift[d] = static_cast<double>(k[d]) * setup_.length(static_cast<int>(d));
-                if (met && laws::touches(a.flight.place - b.flight.place - vector_of(shift), reach)) continue;
-                const double t = pair_time(setup_, a.flight, b.flight, vector_of(shift), reach);
+                const Vector<double> shift = image_of(setup_, k, a.flight.time).shift;
+                if (met && laws::touches(a.flight.place - b.flight.place - shift, reach)) continue;
+                const double t = pair_time(setup_, a.flight, b.flight, k, reach);
                 if (t < next.time) next = {t, Next::Kind::pair, i, j, k};
             }
+        }
+    for (int d = 0; d < setup_.dimension; ++d)
+        if (setup_.periodic[d] && fastest > 0)
+            horizon = std::min(horizon, (setup_.length(d) / 2 - 1e-9 * reach) / fastest);
     // An image outside of these is more than L away, and must come closer by more than the horizon's L/2.
     if (clock_.now + horizon < next.time) next = {clock_.now + horizon, Next::Kind::check, i, j, {}};
     return next;
@@ -134,8 +157,10 @@ Body SimpleAlgorithm::body_of(std::size_t i) const {
 
 void SimpleAlgorithm::fold(State& s) const {
     double* const place[3] = {&s.flight.place.x, &s.flight.place.y, &s.flight.place.z};
+    if (setup_.shear != 0)
+        s.turns[1] += fold_height(setup_, clock_.now, *place[0], *place[1], s.flight.velocity.x);
     for (int d = 0; d < setup_.dimension; ++d) {
-        if (!setup_.periodic[d]) continue;
+        if (!setup_.periodic[d] || (setup_.shear != 0 && d == 1)) continue;
         const double boxes = std::floor((*place[d] - setup_.lower[d]) / setup_.length(d));
         *place[d] -= boxes * setup_.length(d);
         s.turns[static_cast<std::size_t>(d)] += static_cast<std::int64_t>(boxes);
@@ -156,12 +181,9 @@ void SimpleAlgorithm::execute(const Next& next) {
     if (next.kind == Next::Kind::pair) {
         const State &a = states_[next.first], &b = states_[next.second];
         Body i = body_of(next.first), j = body_of(next.second);
-        double shift[3] = {0, 0, 0};
-        for (int d = 0; d < setup_.dimension; ++d)
-            if (setup_.periodic[d])
-                shift[d] = static_cast<double>(next.boxes[static_cast<std::size_t>(d)]) * setup_.length(d);
+        const Image image = image_of(setup_, next.boxes, clock_.now);
         const bool soon = clock_.now - std::max(a.last_time, b.last_time) < setup_.contact_time;
-        const Impact impact = collide(setup_, i, j, vector_of(shift), soon, clock_.now);
+        const Impact impact = collide(setup_, i, j, image, soon, clock_.now);
         tally_.add(impact, setup_.classes[i.kind], setup_.classes[j.kind]);
         settle(next.first, i, static_cast<std::int64_t>(next.second));
         settle(next.second, j, static_cast<std::int64_t>(next.first));
@@ -215,7 +237,9 @@ void SimpleAlgorithm::kick() {
     for (const State& s : states_) kinds.push_back(s.kind);
     const std::vector<Vector<double>> given = kicks(setup_, kinds, kicks_++);
     for (std::size_t i = 0; i < states_.size(); ++i) {
-        states_[i].flight.velocity = states_[i].flight.velocity + given[i];
+        Vector<double>& v = states_[i].flight.velocity;
+        tally_.add_kick(setup_.classes[kinds[i]].mass, v, given[i]);
+        v = v + given[i];
         states_[i].last = -1;
     }
     predict_all();
