@@ -145,15 +145,19 @@ std::string Simulation::serialise() const {
 
 namespace {
 
-// What the first step relies on: numbers, and kinds that there are.
-bool suits(const Setup& setup, const double* place, const double* velocity, const double* spin) {
+// What a step relies on: numbers, kinds that there are, and no way of more boxes than images are counted.
+bool suits(const Setup& setup, double dt, const double* place, const double* velocity, const double* spin) {
+    constexpr double most_boxes = 1 << 19;
     std::uint64_t images = 0;
     std::memcpy(&images, velocity + 3, sizeof images);
     if ((images >> 60) >= setup.kinds()) return false;
-    for (int d = 0; d < 3; ++d)
+    for (int d = 0; d < 3; ++d) {
+        const double way = std::abs(place[d] - setup.lower[d]) + std::abs(velocity[d]) * dt;
         if (!std::isfinite(place[d]) || !std::isfinite(velocity[d]) ||
-            (spin != nullptr && !std::isfinite(spin[d])))
+            (spin != nullptr && !std::isfinite(spin[d])) ||
+            (d < setup.dimension && !(way < most_boxes * (setup.upper[d] - setup.lower[d]))))
             return false;
+    }
     return true;
 }
 
@@ -192,7 +196,7 @@ void Simulation::restore(const std::string& bytes) {
     belongs(step_ >= 0 && std::isfinite(time_) && dt_ > 0 && std::isfinite(dt_) && next_dt_ > 0 &&
             std::isfinite(next_dt_));
     for_rows([&](const double* place, const double* velocity, const double* spin) {
-        belongs(suits(setup_, place, velocity, spin));
+        belongs(suits(setup_, std::max(dt_, next_dt_), place, velocity, spin));
     });
     find_maxwell_rate();
 }

@@ -105,10 +105,17 @@ void Algorithm::get_course(ByteReader& in) {
 }
 
 bool Algorithm::suits(const RawState& s) const {
-    for (std::size_t d = 0; d < 3; ++d)
-        if (!std::isfinite(s.place[d]) || !std::isfinite(s.velocity[d]) || !std::isfinite(s.spin[d]))
+    constexpr double most_boxes = 1 << 15; // images are counted so far
+    const double elapsed = clock_.now - s.time;
+    for (std::size_t d = 0; d < 3; ++d) {
+        const int axis = static_cast<int>(d);
+        const double way = std::abs(s.place[d] - setup_.lower[axis]) + std::abs(s.velocity[d]) * elapsed +
+                           0.5 * std::abs(setup_.gravity[axis]) * elapsed * elapsed;
+        if (!std::isfinite(s.velocity[d]) || !std::isfinite(s.spin[d]) ||
+            !(axis >= setup_.dimension || way < most_boxes * setup_.length(axis)))
             return false;
-    return std::isfinite(s.time) && s.time <= clock_.now && s.last_time <= clock_.now &&
+    }
+    return elapsed >= 0 && std::isfinite(elapsed) && s.last_time <= clock_.now &&
            s.kind < setup_.classes.size();
 }
 
