@@ -52,19 +52,21 @@ def row(folder, name, target):
     law = cases.laws[name]
     choice, dt = choose(folder, law, target)
     measured = error(folder, law, choice["integrator"], dt)
-    best = 0.0
-    for integrator, cost in choice["step_ns"].items():
-        if integrator != choice["integrator"]:
-            # What would be cheaper by 15 % must fail; refused steps do.
-            step = dt * cost / choice["step_ns"][choice["integrator"]] * cheaper
-            try:
-                failed = error(folder, law, integrator, step) > target
-            except runs.Refused:
-                failed = True
-            best = max(best, 0.0 if failed else cheaper)
-    good = measured <= target and best == 0
+    own = choice["candidates"][choice["integrator"]]["step_ns"]
+    better = []
+    for integrator, other in choice["candidates"].items():
+        # What would be cheaper by 15 % must fail, or be refused.
+        step = dt * other["step_ns"] / own * cheaper
+        if integrator == choice["integrator"] or step > other["longest_dt"]:
+            continue
+        try:
+            if error(folder, law, integrator, step) <= target:
+                better.append(integrator)
+        except runs.Refused:
+            continue
+    good = measured <= target and not better
     cells = (name, f"{target:.0e}", choice["integrator"], f"t_c/{law.answer[1] / dt:.4g}", f"{choice['error']:.2g}",
-             f"{measured:.2g}", f"{choice['cost_ns']:.0f}", "none" if best == 0 else "SOME")
+             f"{measured:.2g}", f"{choice['cost_ns']:.0f}", ", ".join(better) or "none")
     return cells, good
 
 

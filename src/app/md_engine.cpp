@@ -180,14 +180,14 @@ private:
     // Of md.accuracy; null without.
     [[nodiscard]] std::string accuracy_json() const {
         const md::AccuracyChoice& choice = accuracy_;
-        std::string costs;
+        std::string all;
         for (const md::Candidate& c : choice.all)
-            costs += fmt::format(R"({}"{}": {})", costs.empty() ? "" : ", ",
-                                 md::integrator_name(c.integrator), md::step_cost(scene_, c.integrator));
-        if (costs.empty()) return "null";
-        return fmt::format(R"({{"integrator": "{}", "error": {}, "cost_ns": {}, "step_ns": {{{}}}}})",
+            all += fmt::format(R"({}"{}": {{"step_ns": {}, "longest_dt": {}}})", all.empty() ? "" : ", ",
+                               md::integrator_name(c.integrator), c.step_cost, json_number(c.longest));
+        if (all.empty()) return "null";
+        return fmt::format(R"({{"integrator": "{}", "error": {}, "cost_ns": {}, "candidates": {{{}}}}})",
                            md::integrator_name(choice.best.integrator), json_number(choice.best.error),
-                           json_number(choice.best.cost), costs);
+                           json_number(choice.best.cost), all);
     }
 
     scene::Scene scene_;

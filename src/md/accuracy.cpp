@@ -97,11 +97,6 @@ private:
     double shortest_ = std::numeric_limits<double>::infinity();
 };
 
-const Row& row_of(Integrator integrator) {
-    return *std::find_if(std::begin(rows), std::end(rows),
-                         [&](const Row& r) { return r.integrator == integrator; });
-}
-
 double cost_of(const Scene& scene, const Row& row) {
     const bool hertz = with_normal_law(static_cast<int>(scene.md.normal),
                                        []<class Law>(Type<Law>) { return Law::needs_radius; });
@@ -137,15 +132,17 @@ Candidate search(const Scene& scene, const Needs& needs, Cases& cases, const Row
             good = dt;
         }
     }
-    if (in_a_row == 0) return {row.integrator, 0, 0, 0};
+    Candidate found{row.integrator, 0, 0, 0, cost, longest};
+    if (in_a_row == 0) return found;
     while (bad > 1.01 * good) {
         const double middle = std::sqrt(good * bad);
         (meets(middle) ? good : bad) = middle;
     }
-    double dt = rounded_down(good);
-    while (!meets(dt)) dt = rounded_down(0.99 * dt);
-    return {row.integrator, dt, cases.error(order, dt, std::numeric_limits<double>::infinity()),
-            cost * cases.shortest() / dt};
+    found.dt = rounded_down(good);
+    while (!meets(found.dt)) found.dt = rounded_down(0.99 * found.dt);
+    found.error = cases.error(order, found.dt, std::numeric_limits<double>::infinity());
+    found.cost = cost * cases.shortest() / found.dt;
+    return found;
 }
 
 [[noreturn]] void fail_unreachable(const Scene& scene, const Needs& needs, Cases& cases) {
@@ -178,10 +175,6 @@ void explain(const Scene& scene, AccuracyChoice& choice) {
 }
 
 } // namespace
-
-double step_cost(const Scene& scene, Integrator integrator) {
-    return cost_of(scene, row_of(integrator));
-}
 
 double scene_error(const Scene& scene, const Needs& needs, Integrator integrator, double dt, double enough) {
     return Cases(scene, needs).error(order_of(integrator), dt, enough);

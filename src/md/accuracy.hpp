@@ -12,9 +12,10 @@ namespace sandlane::md {
 // One way of integrating, and what it needs for the error asked for.
 struct Candidate {
     scene::Integrator integrator = scene::Integrator::automatic;
-    double dt = 0;    // s; 0: none meets it, or it would cost more than another one
-    double error = 0; // of a collision at dt, the largest over all kinds of contacts
-    double cost = 0;  // ns for a particle to live through the shortest contact
+    double dt = 0;                     // s; 0: none meets it, or it would cost more than another one
+    double error = 0;                  // of a collision at dt, the largest over all kinds of contacts
+    double cost = 0;                   // ns for a particle to live through the shortest contact
+    double step_cost = 0, longest = 0; // ns per particle-step; the longest step that is allowed, s
 };
 
 struct AccuracyChoice {
@@ -36,7 +37,4 @@ struct AccuracyChoice {
 // contact, where errors of begin and end cancel, do not count. It stops early where `enough` is exceeded.
 [[nodiscard]] double scene_error(const scene::Scene& scene, const Needs& needs, scene::Integrator integrator,
                                  double dt, double enough);
-// ns per particle-step.
-[[nodiscard]] double step_cost(const scene::Scene& scene, scene::Integrator integrator);
-
 } // namespace sandlane::md

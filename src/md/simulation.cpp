@@ -157,7 +157,7 @@ void Simulation::forces_and_motion(bool predict) {
     motion_results_.resize(state_.tiles());
     wall_results_.resize(state_.tiles());
     tile_overlaps_.resize(state_.tiles());
-    tile_sums_.resize(state_.tiles());
+    if (sums_) tile_sums_.resize(state_.tiles());
     const bool watch = plan_.freeze && predict;
     if (watch) watch_still_tiles();
     for_tiles(state_.tiles(), plan_.threads, [&](std::size_t tile) {
@@ -298,7 +298,7 @@ std::vector<double> Simulation::take_forces() {
     lists_.update(state_, pair_view(), kernels(), plan_.threads, force_time());
     tile_overlaps_.assign(state_.tiles(), 0.0);
     wall_results_.assign(state_.tiles(), {});
-    tile_sums_.assign(state_.tiles(), {});
+    if (sums_) tile_sums_.assign(state_.tiles(), {});
     for (std::size_t tile = 0; tile < state_.tiles(); ++tile) {
         double* force = add_tile_forces(tile);
         const std::size_t begin = tile * tile_size, count = std::min(state_.size() - begin, tile_size);
