@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sandlane::md {
 
@@ -30,6 +32,25 @@ const char* method_name(scene::NeighbourMethod method) {
 bool on_lattice(const Plan& plan) {
     return plan.neighbours == scene::NeighbourMethod::lattice ||
            plan.neighbours == scene::NeighbourMethod::lattice_half;
+}
+
+std::string integrator_text(const Plan& plan) {
+    switch (plan.scheme) {
+    case 3:
+        return "velocity Verlet";
+    case motion::verlet_with_slope:
+        return "velocity Verlet, forces at velocities of second order";
+    default:
+        return fmt::format("Gear predictor-corrector, {} values", plan.order);
+    }
+}
+
+// Relative error of the restitution coefficient with begin and end of contacts resolved, of second order; its
+// size for velocity Verlet as measured in docs/accuracy.md, of the damping ratio of the restitution.
+double resolved_error(const Derived& d, const Plan& plan) {
+    const double loss = std::log(std::max(d.restitution_min, 1e-3)) / std::numbers::pi;
+    const double steps = d.collision_time / plan.dt;
+    return (0.05 + 7 * loss * loss) / (steps * steps);
 }
 
 } // namespace
@@ -72,8 +93,11 @@ std::string describe(const scene::Scene& scene, const Needs& needs, const Derive
     if (on_lattice(plan))
         line("lattice", fmt::format("{} x {} sites of {:.4g} x {:.4g} m, mask {}x{}", plan.columns, plan.rows,
                                     plan.site_x, plan.site_y, 2 * plan.reach + 1, 2 * plan.reach + 1));
-    line("integrator", plan.order == 3 ? std::string("velocity Verlet")
-                                       : fmt::format("Gear predictor-corrector, {} values", plan.order));
+    line("integrator", integrator_text(plan));
+    if (plan.resolved)
+        line("contact onset", fmt::format("resolved within the step; error of the restitution coefficient "
+                                          "about {:.1g} (docs/accuracy.md)",
+                                          resolved_error(d, plan)));
     for (const std::string& reason : plan.chosen) text += "  " + reason + "\n";
     text += "\nSkipped, because the scene does not need it\n";
     for (const std::string& reason : plan.skipped) text += "  " + reason + "\n";
