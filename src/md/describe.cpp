@@ -101,8 +101,10 @@ std::string describe(const scene::Scene& scene, const Needs& needs, const Derive
     for (const std::string& reason : plan.chosen) text += "  " + reason + "\n";
     text += "\nSkipped, because the scene does not need it\n";
     for (const std::string& reason : plan.skipped) text += "  " + reason + "\n";
-    if (plan.dt > d.collision_time / 20)
-        text += "\nWarning: the time step is above t_c/20; dense packings may become unstable.\n";
+    const double least = plan.resolved ? 8 : 20; // steps per contact
+    if (plan.dt > d.collision_time / least)
+        text += fmt::format("\nWarning: the time step is above t_c/{}; dense packings may become unstable.\n",
+                            least);
     if (d.overlap_ratio > 0.05)
         text += "\nWarning: overlaps above 5 % of the smallest radius are expected; stiffen the material or "
                 "lower md.max_speed.\n";
