@@ -1,11 +1,10 @@
 // The text of `sandlane check`: derived quantities and the plan.
-#include "md/plan.hpp"
+#include "md/accuracy.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 namespace sandlane::md {
 
@@ -34,6 +33,15 @@ bool on_lattice(const Plan& plan) {
            plan.neighbours == scene::NeighbourMethod::lattice_half;
 }
 
+// What that leaves of the error of a collision; nothing without contacts.
+std::string resolved_error(const scene::Scene& scene, const Needs& needs, const Plan& plan) {
+    const std::size_t grains = needs.grains + needs.poured;
+    if (scene.md.accuracy > 0 || grains == 0 || (grains == 1 && !needs.walls)) return {};
+    const double error =
+        scene_error(scene, needs, scene.md.integrator, plan.dt, std::numeric_limits<double>::infinity());
+    return fmt::format("; error of a collision at md.max_speed or a tenth of it: up to {:.2g}", error);
+}
+
 std::string integrator_text(const Plan& plan) {
     switch (plan.scheme) {
     case 3:
@@ -43,14 +51,6 @@ std::string integrator_text(const Plan& plan) {
     default:
         return fmt::format("Gear predictor-corrector, {} values", plan.order);
     }
-}
-
-// Relative error of the restitution coefficient with begin and end of contacts resolved, of second order; its
-// size for velocity Verlet as measured in docs/accuracy.md, of the damping ratio of the restitution.
-double resolved_error(const Derived& d, const Plan& plan) {
-    const double loss = std::log(std::max(d.restitution_min, 1e-3)) / std::numbers::pi;
-    const double steps = d.collision_time / plan.dt;
-    return (0.05 + 7 * loss * loss) / (steps * steps);
 }
 
 } // namespace
@@ -94,10 +94,7 @@ std::string describe(const scene::Scene& scene, const Needs& needs, const Derive
         line("lattice", fmt::format("{} x {} sites of {:.4g} x {:.4g} m, mask {}x{}", plan.columns, plan.rows,
                                     plan.site_x, plan.site_y, 2 * plan.reach + 1, 2 * plan.reach + 1));
     line("integrator", integrator_text(plan));
-    if (plan.resolved)
-        line("contact onset", fmt::format("resolved within the step; error of the restitution coefficient "
-                                          "about {:.1g} (docs/accuracy.md)",
-                                          resolved_error(d, plan)));
+    if (plan.resolved) line("contact onset", "resolved inside the step" + resolved_error(scene, needs, plan));
     for (const std::string& reason : plan.chosen) text += "  " + reason + "\n";
     text += "\nSkipped, because the scene does not need it\n";
     for (const std::string& reason : plan.skipped) text += "  " + reason + "\n";
