@@ -40,11 +40,17 @@ def clear(folder):
     return folder
 
 
+def overrides(integrator):
+    """Keys of the scene; "NAME, resolved": the integrator with begin and end of contacts resolved."""
+    name, *onset = integrator.split(", ")
+    return [f"md.integrator={name}", *(f"md.contact_onset={o}" for o in onset)]
+
+
 def sandlane(folder, scene, grains, integrator, steps, dt):
     """State after `steps` steps: {column: values}."""
     save(folder, scene, grains)
     execute([measure.build / "sandlane", "run", "scene.toml", "--out", "out", "--steps", steps, "-j", 1, "--quiet",
-             "--set", f"md.integrator={integrator}", "--set", f"md.dt={dt!r}",
+             *(word for key in overrides(integrator) for word in ("--set", key)), "--set", f"md.dt={dt!r}",
              "--set", f"output.trajectory_every={steps * dt!r}"], folder)
     return read_dump(folder / "out/trajectory.dump")
 
@@ -215,7 +221,7 @@ def costs(folder, integrators, with_lammps, rounds, seconds):
         steps = max(20, int(seconds * 2e7 / 10000))
         for _ in range(rounds):
             for integrator in integrators:
-                summary = race.sandlane(folder / name, steps, [f"md.integrator={integrator}"])
+                summary = race.sandlane(folder / name, steps, overrides(integrator))
                 times.setdefault(integrator, []).append(1 / summary["particle_steps_per_second"])
             if with_lammps:
                 times.setdefault("lammps", []).append(1 / race.lammps(folder / name, max(20, steps // 5)))

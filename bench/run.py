@@ -143,6 +143,11 @@ def peers(options):
     return lammps.main(options, skipped) if lammps else skipped
 
 
+def equal_error(options):
+    chute = peer("chute")
+    return chute.main(options, skipped) if chute else skipped
+
+
 def spheres(options):
     race = peer("spheres")
     return race.main(options) if race else skipped
@@ -260,6 +265,13 @@ def main():
     sub.add_argument("--seconds", type=float, default=1.0, help="aimed time of one run")
     sub.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
                      help="for sandlane, for example md.neighbours=verlet or md.integrator=velocity-verlet")
+    sub = command("equal-error", equal_error, "a chute of discs in sandlane and LAMMPS: speed at the same error, and their "
+                  "energy balance")
+    sub.add_argument("--grains", type=int, default=100000)
+    sub.add_argument("--balance-grains", type=int, default=4000)
+    sub.add_argument("--balance-only", action="store_true", help="without the race")
+    sub.add_argument("--rounds", type=int, default=3, help="times that the programs run in turn")
+    sub.add_argument("--seconds", type=float, default=1.0, help="aimed time of one run")
     sub = command("spheres", spheres, "a bed of spheres in sandlane, LAMMPS, LIGGGHTS and YADE, whichever are installed")
     sub.add_argument("--grains", type=int, nargs="+", default=[31360])
     sub.add_argument("--law", nargs="+", default=["linear", "hertz"], choices=["linear", "hertz"])

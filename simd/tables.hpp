@@ -25,6 +25,7 @@ struct PairView {
     const double* coefficients; // laws::PairCoefficients [materials][materials]
     std::int32_t materials;
     double dt, inverse_dt; // s: between two evaluations of a contact that remembers
+    double step;           // s: of laws that resolve begin and end of a contact
     // Lees-Edwards: the image beyond the upper y side stands this far along x, [-1/2, 1/2) of the period, and
     // moves by so much more per step.
     bool sheared;
@@ -176,12 +177,13 @@ struct DimensionKernels {
     struct Law {
         PairKernel pair[laws::couple_kinds][2];
         TileKernel tile[laws::couple_kinds][2];
+        TileKernel resolved[2]; // [many materials], begin and end of contacts resolved; without couples
     };
     Law law[laws::normal_laws][laws::tangential_laws];
     CellKernel cells;
     CandidateKernel candidates;
     NearKernel near_pairs;
-    MotionKernel predict[4][rotations], correct[4][rotations], advance[4][rotations]; // [order - 3]
+    MotionKernel predict[5][rotations], correct[5][rotations], advance[5][rotations]; // [scheme - 3]
     BinKernel bin;
 };
 

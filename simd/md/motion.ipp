@@ -62,15 +62,16 @@ struct Phase {
 };
 
 // One degree of freedom of eight particles: `value` and `shift` are k = 0 and 1, the rest stands in `gear`.
-template <class Arch, int order>
+template <class Arch, int scheme>
 SANDLANE_INLINE void step_value(Phase phase, double* gear, Block<Arch>& value, Block<Arch>& shift,
                                 const Block<Arch>& acceleration, const Block<Arch>& half_dt2) {
+    constexpr int order = motion::values_of(scheme);
     Block<Arch> x[order];
     x[0] = value;
     x[1] = shift;
     for (int k = 2; k < order; ++k) x[k] = load<Arch>(gear + (k - 2) * width);
-    if (phase.correct) motion::gear_correct(x, acceleration, half_dt2);
-    if (phase.predict) motion::gear_predict(x);
+    if (phase.correct) motion::correct<scheme>(x, acceleration, half_dt2);
+    if (phase.predict) motion::predict<scheme>(x);
     value = x[0];
     shift = x[1];
     for (int k = 2; k < order; ++k) store(gear + (k - 2) * width, x[k]);
@@ -115,16 +116,17 @@ SANDLANE_INLINE void settle(const MotionView& view, std::int64_t first, unsigned
     most = max(only(real, shift2), most);
 }
 
-template <class Arch, int dimension, int order, Rotation rotation>
+template <class Arch, int dimension, int scheme, Rotation rotation>
 SANDLANE_INLINE MotionResult gear_step(Phase phase, const MotionView& view, std::int64_t begin,
                                        std::int64_t end) {
     using R = Block<Arch>;
     using Fields = Record<dimension>;
     constexpr bool turns = rotation != Rotation::none, couples = rotation == Rotation::couples;
+    constexpr int order = motion::values_of(scheme);
     constexpr int dofs = degrees_of_freedom(dimension, turns), fields = force_stride(dimension, rotation);
     const auto step = [&](double* gear, int dof, R& value, R& shift, const R& acceleration) {
-        step_value<Arch, order>(phase, gear + dof * (order - 2) * width, value, shift, acceleration,
-                                R(view.half_dt2));
+        step_value<Arch, scheme>(phase, gear + dof * (order - 2) * width, value, shift, acceleration,
+                                 R(view.half_dt2));
     };
     R most(0.0);
     MotionResult result;
@@ -164,22 +166,22 @@ SANDLANE_INLINE MotionResult gear_step(Phase phase, const MotionView& view, std:
     return result;
 }
 
-template <class Arch, int dimension, int order, Rotation rotation>
+template <class Arch, int dimension, int scheme, Rotation rotation>
 MotionResult advance(const MotionView& view, std::int64_t begin, std::int64_t end) {
-    return gear_step<Arch, dimension, order, rotation>({true, true}, view, begin, end);
+    return gear_step<Arch, dimension, scheme, rotation>({true, true}, view, begin, end);
 }
-template <class Arch, int dimension, int order, Rotation rotation>
+template <class Arch, int dimension, int scheme, Rotation rotation>
 __attribute__((noinline)) MotionResult either(bool correct, const MotionView& view, std::int64_t begin,
                                               std::int64_t end) {
-    return gear_step<Arch, dimension, order, rotation>({correct, !correct}, view, begin, end);
+    return gear_step<Arch, dimension, scheme, rotation>({correct, !correct}, view, begin, end);
 }
-template <class Arch, int dimension, int order, Rotation rotation>
+template <class Arch, int dimension, int scheme, Rotation rotation>
 MotionResult correct(const MotionView& view, std::int64_t begin, std::int64_t end) {
-    return either<Arch, dimension, order, rotation>(true, view, begin, end);
+    return either<Arch, dimension, scheme, rotation>(true, view, begin, end);
 }
-template <class Arch, int dimension, int order, Rotation rotation>
+template <class Arch, int dimension, int scheme, Rotation rotation>
 MotionResult predict(const MotionView& view, std::int64_t begin, std::int64_t end) {
-    return either<Arch, dimension, order, rotation>(false, view, begin, end);
+    return either<Arch, dimension, scheme, rotation>(false, view, begin, end);
 }
 
 // Lattice site or cell of each particle (floor, and the quotient rounded up is clamped; a corrected position

@@ -161,7 +161,7 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
     alignas(64) double rows[Contacts::room * fields];
     laws::PairCoefficients<R> coefficients;
     if constexpr (!many_materials) coefficients = laws::coefficients_from<R>(view.coefficients);
-    const R elapsed(view.dt);
+    const R elapsed(view.dt), step(view.step);
     R most(largest_overlap);
     const auto size_of_tile = static_cast<std::uint32_t>(list.end - list.begin);
     for (std::int32_t first = 0; first < list.count; first += tile_chunk) {
@@ -176,7 +176,7 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
             load_memory<Arch, memory>(remembered, c.place + n, held);
             const auto f = laws::pair_force<Normal, Tangential, couples>(
                 contact_state<Arch, dimension, Tangential, couples>(view, c.i + n, c.j + n, field),
-                coefficients, held, elapsed);
+                coefficients, held, elapsed, step);
             store_memory<Arch, memory>(held, remembered, c.place + n);
             most = max(f.overlap, most);
             store_force<Arch, fields>(f, rows + n * fields);

@@ -115,9 +115,10 @@ void MdEngine::draw(const std::filesystem::path& png, const Look& look) const {
 
 std::string MdEngine::plan_json() const {
     const md::Plan& plan = simulation_.plan();
-    return fmt::format(R"({{"engine": "md", "neighbours": "{}", "order": {}, "spin": {}, "dt": {}}})",
-                       scene::neighbour_choices()[static_cast<std::size_t>(plan.neighbours)], plan.order,
-                       md::turns(plan), json_number(plan.dt));
+    return fmt::format(
+        R"({{"engine": "md", "neighbours": "{}", "order": {}, "contact_onset": "{}", "spin": {}, "dt": {}}})",
+        scene::neighbour_choices()[static_cast<std::size_t>(plan.neighbours)], plan.order,
+        plan.resolved ? "resolved" : "step", md::turns(plan), json_number(plan.dt));
 }
 
 std::string MdEngine::summary_json() const {

@@ -4,6 +4,7 @@
 
 #include "laws/count.hpp"
 #include "laws/normal.hpp"
+#include "laws/resolved.hpp"
 #include "laws/rolling.hpp"
 #include "laws/tangential.hpp"
 
@@ -52,13 +53,14 @@ inline constexpr bool exists_with = couples == Couples::none ||
                                     (Tangential::needs_spin &&
                                      (couples == Couples::damped || Tangential::memory > 0));
 
-// A contact that begins remembers zeros, and no time has passed since its last evaluation.
-template <int memory, class R> SANDLANE_INLINE R begin_contact(R* held, const R& elapsed) {
+// A contact that begins remembers zeros, and no time has passed since its last evaluation, but `begun` if its
+// begin is resolved.
+template <int memory, class R> SANDLANE_INLINE R begin_contact(R* held, const R& elapsed, const R& begun) {
     if constexpr (memory == 0) return elapsed;
     const R zero(0.0);
     const auto fresh = held[0] > R(0.5 * no_contact);
     for (int m = 0; m < memory; ++m) held[m] = select(fresh, zero, held[m]);
-    return select(fresh, zero, elapsed);
+    return select(fresh, begun, elapsed);
 }
 
 // Lever arms l_i, l_j of a contact at distance d (1.8). Each partner gets the same bits whichever comes
@@ -92,11 +94,22 @@ template <class R> struct PairForce {
     R couple{};
 };
 
+// A NormalForce, or a StepForce of a law that resolves.
 template <class Normal, class R>
-SANDLANE_INLINE NormalForce<R> normal_force(const R& overlap, const R& rate, const PairCoefficients<R>& c,
-                                            const R& reduced_radius, R* memory) {
-    return Normal::force(
-        NormalInput<R>{overlap, rate, c.elastic, c.dissipative, reduced_radius, c.cohesion, c.least}, memory);
+SANDLANE_INLINE auto normal_force(const R& overlap, const R& rate, const PairCoefficients<R>& c,
+                                  const R& reduced_radius, R* memory, const R& step = R(0.0)) {
+    const NormalInput<R> input{overlap, rate, c.elastic, c.dissipative, reduced_radius, c.cohesion, c.least};
+    if constexpr (resolves<Normal>)
+        return Normal::force(input, step);
+    else
+        return Normal::force(input, memory);
+}
+
+// Time since the touch of a contact that has just begun, where the law resolves it.
+template <class Normal, class R>
+SANDLANE_INLINE R time_begun(const R& overlap, const R& rate, const R& step) {
+    if constexpr (resolves<Normal>) return since_touch(overlap, rate, step);
+    return R(0.0);
 }
 
 // d, 1/d, and R_eff if the laws want it, from d^2: one division for both, which does not wait for the root.
@@ -116,12 +129,13 @@ template <bool reduced, class R> struct Distance {
 
 // overlap <= 0 means no contact and gives exact zeros. Coincident centres must have been excluded. `memory`
 // of the contact is brought up to the present, `elapsed` [s] after the last time; laws without memory do
-// without both.
+// without both. `step` [s]: the time step, of laws that resolve begin and end of a contact.
 template <class Normal, class Tangential, Couples couples = Couples::none, class R>
 SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoefficients<R>& c,
-                                        R* memory = nullptr, const R& elapsed = R(0.0)) {
-    const R time = begin_contact<memory_of<Normal, Tangential, couples, 2>>(memory, elapsed);
+                                        R* memory = nullptr, const R& elapsed = R(0.0),
+                                        const R& step = R(0.0)) {
     constexpr bool has_couples = couples != Couples::none;
+    static_assert(!(resolves<Normal> && has_couples));
     R* const tangential = memory + rolling_memory<couples, 2>;
     const R zero(0.0);
     const Distance<Normal::needs_radius || has_couples, R> distance(s.dx * s.dx + s.dy * s.dy,
@@ -129,9 +143,11 @@ SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoeffic
     const R overlap = s.radius_sum - distance.d;
     const R nx = s.dx * distance.inverse, ny = s.dy * distance.inverse;
     const R rate = -(s.dvx * nx + s.dvy * ny);
+    const R time = begin_contact<memory_of<Normal, Tangential, couples, 2>>(
+        memory, elapsed, time_begun<Normal>(overlap, rate, step));
     const auto touching = overlap > zero;
-    const NormalForce<R> f_n = normal_force<Normal>(select(touching, overlap, zero), rate, c,
-                                                    distance.reduced_radius, tangential + Tangential::memory);
+    const auto f_n = normal_force<Normal>(select(touching, overlap, zero), rate, c, distance.reduced_radius,
+                                          tangential + Tangential::memory, step);
     R spin = s.spin, share(1.0);
     Levers<R> arm{s.radius, zero};
     if constexpr (has_couples) {
@@ -140,9 +156,10 @@ SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoeffic
         share = (arm.first + arm.second) / s.radius_sum;
     }
     const R v_t = Tangential::needs_spin ? s.dvx * ny - s.dvy * nx + spin : zero;
-    const R f_t = Tangential::force(
+    R f_t = Tangential::force(
         TangentialInput<R>{f_n.load, v_t, c.tangential_damping, c.friction, c.tangential_stiffness, time},
         tangential);
+    if constexpr (resolves<Normal>) f_t = f_n.share * f_t;
     PairForce<R> f{select(touching, -(f_n.force * nx) - f_t * ny, zero),
                    select(touching, f_t * nx - f_n.force * ny, zero), select(touching, f_t, zero), overlap};
     if constexpr (has_couples) {
@@ -181,19 +198,21 @@ template <class R> struct SpatialForce {
 
 template <class Normal, class Tangential, Couples couples = Couples::none, class R>
 SANDLANE_INLINE SpatialForce<R> pair_force(const SpatialState<R>& s, const PairCoefficients<R>& c,
-                                           R* memory = nullptr, const R& elapsed = R(0.0)) {
-    const R time = begin_contact<memory_of<Normal, Tangential, couples, 3>>(memory, elapsed);
+                                           R* memory = nullptr, const R& elapsed = R(0.0),
+                                           const R& step = R(0.0)) {
     constexpr bool has_couples = couples != Couples::none;
+    static_assert(!(resolves<Normal> && has_couples));
     R* const tangential = memory + rolling_memory<couples, 3>;
     const R zero(0.0);
     const Distance<Normal::needs_radius || has_couples, R> distance(dot(s.d, s.d), s.inverse_radii);
     const R overlap = s.radius_sum - distance.d;
     const Vector<R> n = distance.inverse * s.d, none{zero, zero, zero};
     const R rate = -dot(s.dv, n);
+    const R time = begin_contact<memory_of<Normal, Tangential, couples, 3>>(
+        memory, elapsed, time_begun<Normal>(overlap, rate, step));
     const auto touching = overlap > zero;
-    const NormalForce<R> f_n =
-        normal_force<Normal>(select(touching, overlap, zero), rate, c, distance.reduced_radius,
-                             tangential + Tangential::memory_in_space);
+    const auto f_n = normal_force<Normal>(select(touching, overlap, zero), rate, c, distance.reduced_radius,
+                                          tangential + Tangential::memory_in_space, step);
     if constexpr (!Tangential::needs_spin) return {select(touching, -f_n.force * n, none), none, overlap};
     Vector<R> spin = s.spin;
     R share(1.0);
@@ -205,9 +224,10 @@ SANDLANE_INLINE SpatialForce<R> pair_force(const SpatialState<R>& s, const PairC
     }
     const Vector<R> u_t = cross(spin, n) - s.dv - rate * n;
     const R twist = Tangential::needs_twist ? R(0.5) * dot(s.turn, n) : zero;
-    const Vector<R> f_t = Tangential::force(SpatialInput<R>{f_n.load, u_t, n, twist, c.tangential_damping,
-                                                            c.friction, c.tangential_stiffness, time},
-                                            tangential);
+    Vector<R> f_t = Tangential::force(SpatialInput<R>{f_n.load, u_t, n, twist, c.tangential_damping,
+                                                      c.friction, c.tangential_stiffness, time},
+                                      tangential);
+    if constexpr (resolves<Normal>) f_t = f_n.share * f_t;
     const Vector<R> turning = cross(n, f_t);
     SpatialForce<R> f{select(touching, f_t - f_n.force * n, none), select(touching, turning, none), overlap};
     if constexpr (has_couples) {

@@ -64,10 +64,10 @@ public:
     [[nodiscard]] double shortest() const { return shortest_; }
 
     // The largest error of all; cases that were the worst come first from then on.
-    double error(int order, double dt, double enough) {
+    double error(Stepping stepping, double dt, double enough) {
         double worst = 0;
         for (std::size_t n = 0; n < cases_.size(); ++n) {
-            const double error = largest(cases_[n], order, dt);
+            const double error = largest(cases_[n], stepping, dt);
             if (error > worst && n > 0) std::swap(cases_[0], cases_[n]);
             worst = std::max(worst, error);
             if (!(worst <= enough)) return worst;
@@ -83,12 +83,12 @@ private:
     }
 
     // Over a quarter, half and three quarters of a step more per contact.
-    [[nodiscard]] double largest(const Case& c, int order, double dt) const {
+    [[nodiscard]] double largest(const Case& c, Stepping stepping, double dt) const {
         const double steps = c.impact.time / dt;
         double worst = 0;
         for (const double more : {0.0, 0.25, 0.5, 0.75})
-            worst = std::max(worst,
-                             collision_error(normal_, order, c.impact, c.exact, dt * steps / (steps + more)));
+            worst = std::max(
+                worst, collision_error(normal_, stepping, c.impact, c.exact, dt * steps / (steps + more)));
         return worst;
     }
 
@@ -96,6 +96,12 @@ private:
     std::vector<Case> cases_;
     double shortest_ = std::numeric_limits<double>::infinity();
 };
+
+Stepping stepping_of(const Scene& scene, Integrator integrator) {
+    scene::Md md = scene.md;
+    md.integrator = integrator;
+    return {scheme_of(md), md.contact_onset == scene::ContactOnset::resolved};
+}
 
 double cost_of(const Scene& scene, const Row& row) {
     const bool hertz = with_normal_law(static_cast<int>(scene.md.normal),
@@ -118,8 +124,8 @@ double rounded_down(double x) {
 // The longest step that meets the target, as two shorter ones of the scan do; up to a hundredth.
 Candidate search(const Scene& scene, const Needs& needs, Cases& cases, const Row& row, double most_cost) {
     const double target = scene.md.accuracy, cost = cost_of(scene, row);
-    const int order = order_of(row.integrator);
-    const auto meets = [&](double dt) { return cases.error(order, dt, target) <= target; };
+    const Stepping stepping = stepping_of(scene, row.integrator);
+    const auto meets = [&](double dt) { return cases.error(stepping, dt, target) <= target; };
     const double longest = longest_step(scene, needs, row.integrator);
     const double least = std::max(shortest_step * cases.shortest(), cost * cases.shortest() / most_cost);
     double good = 0, bad = 0;
@@ -140,7 +146,7 @@ Candidate search(const Scene& scene, const Needs& needs, Cases& cases, const Row
     }
     found.dt = rounded_down(good);
     while (!meets(found.dt)) found.dt = rounded_down(0.99 * found.dt);
-    found.error = cases.error(order, found.dt, std::numeric_limits<double>::infinity());
+    found.error = cases.error(stepping, found.dt, std::numeric_limits<double>::infinity());
     found.cost = cost * cases.shortest() / found.dt;
     return found;
 }
@@ -150,8 +156,8 @@ Candidate search(const Scene& scene, const Needs& needs, Cases& cases, const Row
     for (const Row& row : rows) {
         const double dt =
             std::min(longest_step(scene, needs, row.integrator), shortest_step * cases.shortest());
-        reached = std::min(
-            reached, cases.error(order_of(row.integrator), dt, std::numeric_limits<double>::infinity()));
+        reached = std::min(reached, cases.error(stepping_of(scene, row.integrator), dt,
+                                                std::numeric_limits<double>::infinity()));
     }
     fail(Exit::invalid_input,
          "md.accuracy = {}: no integrator meets it with up to {:.0f} steps in a contact; the best error with "
@@ -177,7 +183,7 @@ void explain(const Scene& scene, AccuracyChoice& choice) {
 } // namespace
 
 double scene_error(const Scene& scene, const Needs& needs, Integrator integrator, double dt, double enough) {
-    return Cases(scene, needs).error(order_of(integrator), dt, enough);
+    return Cases(scene, needs).error(stepping_of(scene, integrator), dt, enough);
 }
 
 AccuracyChoice choose_by_accuracy(const Scene& scene, const Needs& needs) {

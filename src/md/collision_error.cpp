@@ -14,8 +14,9 @@ namespace {
 constexpr double longest_contact = 20; // of the estimate
 
 // m/s^2, of the overlap; `memory` of the contact is brought up to date.
-template <class Law> double acceleration(const Impact& k, double overlap, double rate, double* memory) {
-    return -laws::normal_force<Law>(overlap, rate, k.coefficients, k.radius, memory).force / k.mass;
+template <class Law>
+double acceleration(const Impact& k, double overlap, double rate, double* memory, double dt = 0) {
+    return -laws::normal_force<Law>(overlap, rate, k.coefficients, k.radius, memory, dt).force / k.mass;
 }
 
 // Whether the values from the second derivative on have died away.
@@ -25,15 +26,15 @@ template <int order> bool is_straight(const double (&x)[order]) {
 }
 
 // x: the overlap and its derivatives as the integrator stores them, negative before and after the contact.
-template <class Law, int order> double stepped(const Impact& k, double dt, double gap) {
-    double x[order] = {-gap, k.speed * dt}, memory[Law::memory + 1] = {};
+template <class Law, int scheme> double stepped(const Impact& k, double dt, double gap) {
+    double x[motion::values_of(scheme)] = {-gap, k.speed * dt}, memory[Law::memory + 1] = {};
     const auto steps = static_cast<std::int64_t>((longest_contact * k.time + gap / k.speed) / dt) + 100;
     bool met = false;
     for (std::int64_t n = 0; n < steps; ++n) {
-        motion::gear_predict(x);
+        motion::predict<scheme>(x);
         const bool touching = x[0] > 0;
-        const double a = touching ? acceleration<Law>(k, x[0], x[1] / dt, memory) : 0.0;
-        motion::gear_correct(x, a, 0.5 * dt * dt);
+        const double a = touching ? acceleration<Law>(k, x[0], x[1] / dt, memory, dt) : 0.0;
+        motion::correct<scheme>(x, a, 0.5 * dt * dt);
         met = met || touching;
         if (!std::isfinite(x[1])) return 0;
         if (met && !touching && x[1] < 0 && is_straight(x)) return -x[1] / (dt * k.speed);
@@ -98,18 +99,25 @@ Impact make_impact(int normal, const Coefficients& c, double mass, double radius
             })};
 }
 
-double stepped_restitution(int normal, int order, const Impact& impact, double dt, double gap) {
-    return with_normal_law(normal, [&]<class Law>(Type<Law>) {
-        switch (order) {
+double stepped_restitution(int normal, Stepping stepping, const Impact& impact, double dt, double gap) {
+    const auto of_law = [&]<class Law>(Type<Law>) {
+        switch (stepping.scheme) {
         case 3:
             return stepped<Law, 3>(impact, dt, gap);
         case 4:
             return stepped<Law, 4>(impact, dt, gap);
         case 5:
             return stepped<Law, 5>(impact, dt, gap);
-        default:
+        case 6:
             return stepped<Law, 6>(impact, dt, gap);
+        default:
+            return stepped<Law, motion::verlet_with_slope>(impact, dt, gap);
         }
+    };
+    return with_normal_law(normal, [&]<class Law>(Type<Law> law) {
+        if constexpr (laws::can_resolve<Law>)
+            if (stepping.resolved) return of_law(Type<laws::Resolved<Law>>{});
+        return of_law(law);
     });
 }
 
@@ -122,11 +130,11 @@ double collision_error(double restitution, double exact) {
     return exact > 0 ? std::max(std::abs(restitution - exact) / exact, energy) : energy;
 }
 
-double collision_error(int normal, int order, const Impact& impact, double exact, double dt) {
+double collision_error(int normal, Stepping stepping, const Impact& impact, double exact, double dt) {
     double sum = 0;
     for (int n = 0; n < phases; ++n) {
         const double gap = (n + 0.5) / phases * dt * impact.speed;
-        const double error = collision_error(stepped_restitution(normal, order, impact, dt, gap), exact);
+        const double error = collision_error(stepped_restitution(normal, stepping, impact, dt, gap), exact);
         sum += error * error;
     }
     return std::sqrt(sum / phases);

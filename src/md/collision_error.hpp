@@ -17,10 +17,19 @@ struct Impact {
 [[nodiscard]] Impact make_impact(int normal, const laws::PairCoefficients<double>& coefficients, double mass,
                                  double radius, double speed);
 
-// Restitution coefficient by steps of dt [s] of the integrator with `order` values (3: velocity Verlet), as a
-// run takes them; the gap [m] is that before the first step. normal: position in laws.def. Grains that do
-// not part, or get a speed that is no number: 0.
-[[nodiscard]] double stepped_restitution(int normal, int order, const Impact& impact, double dt, double gap);
+// How a collision is stepped: scheme of motion/gear.hpp (3: velocity Verlet), and whether begin and end are
+// resolved, for laws that can.
+struct Stepping {
+    int scheme = 5;
+    bool resolved = false;
+
+    Stepping(int of, bool resolve = false) : scheme(of), resolved(resolve) {} // NOLINT: a number of values
+};
+
+// Restitution coefficient by steps of dt [s], as a run takes them; the gap [m] is that before the first step.
+// normal: position in laws.def. Grains that do not part, or get a speed that is no number: 0.
+[[nodiscard]] double stepped_restitution(int normal, Stepping stepping, const Impact& impact, double dt,
+                                         double gap);
 // The same without the error of steps, to about 1e-10.
 [[nodiscard]] double exact_restitution(int normal, const Impact& impact);
 
@@ -29,6 +38,7 @@ struct Impact {
 [[nodiscard]] double collision_error(double restitution, double exact);
 // Root mean square of it over `phases` collisions that begin evenly spread within a step.
 inline constexpr int phases = 16;
-[[nodiscard]] double collision_error(int normal, int order, const Impact& impact, double exact, double dt);
+[[nodiscard]] double collision_error(int normal, Stepping stepping, const Impact& impact, double exact,
+                                     double dt);
 
 } // namespace sandlane::md

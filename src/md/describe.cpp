@@ -1,9 +1,10 @@
 // The text of `sandlane check`: derived quantities and the plan.
-#include "md/plan.hpp"
+#include "md/accuracy.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace sandlane::md {
 
@@ -30,6 +31,26 @@ const char* method_name(scene::NeighbourMethod method) {
 bool on_lattice(const Plan& plan) {
     return plan.neighbours == scene::NeighbourMethod::lattice ||
            plan.neighbours == scene::NeighbourMethod::lattice_half;
+}
+
+// What that leaves of the error of a collision; nothing without contacts.
+std::string resolved_error(const scene::Scene& scene, const Needs& needs, const Plan& plan) {
+    const std::size_t grains = needs.grains + needs.poured;
+    if (scene.md.accuracy > 0 || grains == 0 || (grains == 1 && !needs.walls)) return {};
+    const double error =
+        scene_error(scene, needs, scene.md.integrator, plan.dt, std::numeric_limits<double>::infinity());
+    return fmt::format("; error of a collision at md.max_speed or a tenth of it: up to {:.2g}", error);
+}
+
+std::string integrator_text(const Plan& plan) {
+    switch (plan.scheme) {
+    case 3:
+        return "velocity Verlet";
+    case motion::verlet_with_slope:
+        return "velocity Verlet, forces at velocities of second order";
+    default:
+        return fmt::format("Gear predictor-corrector, {} values", plan.order);
+    }
 }
 
 } // namespace
@@ -72,13 +93,15 @@ std::string describe(const scene::Scene& scene, const Needs& needs, const Derive
     if (on_lattice(plan))
         line("lattice", fmt::format("{} x {} sites of {:.4g} x {:.4g} m, mask {}x{}", plan.columns, plan.rows,
                                     plan.site_x, plan.site_y, 2 * plan.reach + 1, 2 * plan.reach + 1));
-    line("integrator", plan.order == 3 ? std::string("velocity Verlet")
-                                       : fmt::format("Gear predictor-corrector, {} values", plan.order));
+    line("integrator", integrator_text(plan));
+    if (plan.resolved) line("contact onset", "resolved inside the step" + resolved_error(scene, needs, plan));
     for (const std::string& reason : plan.chosen) text += "  " + reason + "\n";
     text += "\nSkipped, because the scene does not need it\n";
     for (const std::string& reason : plan.skipped) text += "  " + reason + "\n";
-    if (plan.dt > d.collision_time / 20)
-        text += "\nWarning: the time step is above t_c/20; dense packings may become unstable.\n";
+    const double least = plan.resolved ? 8 : 20; // steps per contact
+    if (plan.dt > d.collision_time / least)
+        text += fmt::format("\nWarning: the time step is above t_c/{}; dense packings may become unstable.\n",
+                            least);
     if (d.overlap_ratio > 0.05)
         text += "\nWarning: overlaps above 5 % of the smallest radius are expected; stiffen the material or "
                 "lower md.max_speed.\n";

@@ -83,7 +83,7 @@ simd::PairView Simulation::pair_view() {
     }
     view.coefficients = coefficients_.data();
     view.materials = static_cast<std::int32_t>(scene_.materials.size());
-    view.dt = plan_.dt;
+    view.dt = view.step = plan_.dt;
     view.inverse_dt = 1.0 / plan_.dt;
     view.sheared = scene_.domain.shear_rate != 0;
     view.seam = seam(force_time());

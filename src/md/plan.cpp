@@ -135,6 +135,26 @@ void note_skipped(const Scene& scene, const Needs& needs, Plan& plan) {
     skip(plan.dimension == 2, "third dimension");
 }
 
+// Which scenes have kernels that resolve begin and end of contacts.
+void check_resolved(const Scene& scene, const Plan& plan) {
+    const bool law =
+        with_normal_law(plan.normal, []<class Normal>(Type<Normal>) { return laws::can_resolve<Normal>; });
+    if (!law)
+        fail(Exit::invalid_input,
+             "md.contact_onset = \"resolved\": not for md.normal = \"{}\" (allowed: linear-dashpot, "
+             "viscoelastic); use \"step\"",
+             scene::normal_choices()[static_cast<std::size_t>(plan.normal)]);
+    if (plan.couples != laws::Couples::none)
+        fail(Exit::invalid_input,
+             "md.contact_onset = \"resolved\": not with rolling friction or md.lever_arm = \"plane\"; use "
+             "\"step\", or leave those out");
+    const NeighbourMethod wanted = scene.md.neighbours;
+    if (wanted != NeighbourMethod::automatic && wanted != NeighbourMethod::verlet)
+        fail(Exit::invalid_input,
+             "md.contact_onset = \"resolved\" needs md.neighbours = \"auto\" or \"verlet\" (here \"{}\")",
+             scene::neighbour_choices()[static_cast<std::size_t>(wanted)]);
+}
+
 void check_time_step(const Scene& scene, const Derived& derived, double dt) {
     if (!(dt > derived.critical_dt)) return;
     fail(Exit::invalid_input,
@@ -162,7 +182,9 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     plan.dimension = static_cast<int>(scene.domain.dimension);
     plan.lower = scene.domain.lower;
     plan.upper = scene.domain.upper;
-    plan.order = order_of(scene.md.integrator);
+    plan.scheme = scheme_of(scene.md);
+    plan.order = motion::values_of(plan.scheme);
+    plan.resolved = scene.md.contact_onset == scene::ContactOnset::resolved;
     plan.normal = static_cast<int>(scene.md.normal);
     const bool couples = needs.couples != laws::Couples::none;
     const bool turns =
@@ -180,6 +202,7 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     plan.tangential = static_cast<int>(as_asked ? scene.md.tangential : without);
     plan.orientation = scene.md.orientation && turns;
     set_memory(plan);
+    if (plan.resolved) check_resolved(scene, plan);
     plan.many_materials = needs.many_materials;
     plan.many_radii = needs.many_radii;
     plan.walls = needs.walls;

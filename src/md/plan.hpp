@@ -5,6 +5,7 @@
 #include "core/parallel.hpp"
 #include "laws/contact.hpp"
 #include "md/size_classes.hpp"
+#include "motion/gear.hpp"
 #include "scene/initial_state.hpp"
 #include "scene/scene.hpp"
 #include "simd/tables.hpp"
@@ -42,7 +43,9 @@ struct Plan {
     simd::Isa isa = simd::Isa::scalar;
     int threads = 1;
     scene::NeighbourMethod neighbours = scene::NeighbourMethod::link_cells; // never automatic
-    int dimension = 2, order = 5;
+    int dimension = 2, order = 5; // values that the integrator stores
+    int scheme = 5;               // of motion/gear.hpp
+    bool resolved = false;        // contacts begin and end inside a step
     // Numbers that a contact remembers, and how many of them change sign when its partners are exchanged.
     int memory = 0, odd_memory = 0;
     simd::Rotation rotation = simd::Rotation::none;
@@ -64,9 +67,9 @@ struct Plan {
     std::vector<std::string> chosen, skipped; // one reason per line
 };
 
-// Values that the integrator stores.
-[[nodiscard]] constexpr int order_of(scene::Integrator integrator) {
-    switch (integrator) {
+// Scheme of motion/gear.hpp.
+[[nodiscard]] constexpr int scheme_of(const scene::Md& md) {
+    switch (md.integrator) {
     case scene::Integrator::gear4:
         return 4;
     case scene::Integrator::automatic:
@@ -75,7 +78,7 @@ struct Plan {
     case scene::Integrator::gear6:
         return 6;
     case scene::Integrator::velocity_verlet:
-        return 3;
+        return md.contact_onset == scene::ContactOnset::resolved ? motion::verlet_with_slope : 3;
     }
     return 5;
 }

@@ -22,7 +22,7 @@ void Simulation::add_shear_work() {
 double Simulation::seam_power(std::size_t tile) {
     const simd::TileList all = lists_.tile(tile, state_);
     if (all.images != simd::Images::sheared) return 0;
-    const simd::TileKernel kernel = law().tile[static_cast<int>(plan_.couples)][plan_.many_materials ? 1 : 0];
+    const simd::TileKernel kernel = tile_kernel();
     simd::PairView view = pair_view();
     view.dt = 0;
     const double seam_speed = scene_.domain.shear_rate * (plan_.upper.y - plan_.lower.y);

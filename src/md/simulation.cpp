@@ -141,7 +141,7 @@ void Simulation::integrate(bool correct, bool predict) {
 
 simd::MotionKernel Simulation::motion_kernel(bool correct, bool predict) const {
     const auto& table = correct ? (predict ? kernels().advance : kernels().correct) : kernels().predict;
-    return table[plan_.order - 3][static_cast<int>(plan_.rotation)];
+    return table[plan_.scheme - 3][static_cast<int>(plan_.rotation)];
 }
 
 // One pass over the tiles: forces at the predicted positions, correction, and the next prediction, whose
@@ -215,7 +215,7 @@ void Simulation::watch_still_tiles() {
 // Forces on the grains of a tile in the calling thread's accumulator, which the motion kernel clears.
 double* Simulation::add_tile_forces(std::size_t tile) {
     double* force = accumulators_[static_cast<std::size_t>(thread_index())].data();
-    const simd::TileKernel kernel = law().tile[static_cast<int>(plan_.couples)][plan_.many_materials ? 1 : 0];
+    const simd::TileKernel kernel = tile_kernel();
     tile_overlaps_[tile] = kernel(pair_view(), lists_.tile(tile, state_), force, 0.0);
     if (sums_) sum_forces(tile, force, false);
     if (!walls_.empty())

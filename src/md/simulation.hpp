@@ -126,6 +126,11 @@ private:
     [[nodiscard]] const simd::DimensionKernels::Law& law() const {
         return kernels().law[plan_.normal][plan_.tangential];
     }
+    [[nodiscard]] simd::TileKernel tile_kernel() const {
+        const int materials = plan_.many_materials ? 1 : 0;
+        return plan_.resolved ? law().resolved[materials]
+                              : law().tile[static_cast<int>(plan_.couples)][materials];
+    }
     [[nodiscard]] double* add_tile_forces(std::size_t tile);
     [[nodiscard]] md::WallInput wall_input(double* force, std::size_t first) const;
     [[nodiscard]] bool is_inside(Vec p) const;

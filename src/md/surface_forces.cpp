@@ -105,7 +105,7 @@ laws::SpatialForce<double> force_of(const RecordedGrain& g, const WallContact& c
     double held[memory + 1];
     for (int m = 0; m < memory; ++m) held[m] = remembered[m * stride];
     const auto f = laws::pair_force<Normal, Tangential, couples>(
-        state_of(g, c), laws::coefficients_from<double>(coefficients), held, dt);
+        state_of(g, c), laws::coefficients_from<double>(coefficients), held, dt, dt);
     for (int m = 0; m < memory; ++m) remembered[m * stride] = held[m];
     return f;
 }
@@ -150,12 +150,16 @@ WallResult surface_forces(const Walls& walls, const WallInput& input, const Near
 
 WallKernel surface_kernel(const Plan& plan) {
     return with_laws(plan.normal, plan.tangential, plan.couples,
-                     []<class Normal, class Tangential, laws::Couples couples>(Type<Normal>, Type<Tangential>,
-                                                                               Kind<couples>) -> WallKernel {
-                         if constexpr (laws::exists_in<Tangential, 3>)
-                             return surface_forces<Normal, Tangential, couples>;
-                         else
+                     [&]<class Normal, class Tangential, laws::Couples couples>(
+                         Type<Normal>, Type<Tangential>, Kind<couples>) -> WallKernel {
+                         if constexpr (!laws::exists_in<Tangential, 3>)
                              return nullptr;
+                         else {
+                             if constexpr (laws::can_resolve<Normal> && couples == laws::Couples::none)
+                                 if (plan.resolved)
+                                     return surface_forces<laws::Resolved<Normal>, Tangential, couples>;
+                             return surface_forces<Normal, Tangential, couples>;
+                         }
                      });
 }
 

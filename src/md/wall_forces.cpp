@@ -53,7 +53,7 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
         double held[memory + 1];
         for (int m = 0; m < memory; ++m) held[m] = remembered[m * input.stride];
         const auto f = laws::pair_force<Normal, Tangential, couples>(pair, laws::coefficients_from<double>(k),
-                                                                     held, input.dt);
+                                                                     held, input.dt, input.dt);
         for (int m = 0; m < memory; ++m) remembered[m * input.stride] = held[m];
         double* force = input.force + (i - input.first) * 4;
         force[0] += f.x;
@@ -71,8 +71,11 @@ WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWal
 
 WallKernel wall_kernel(const Plan& plan) {
     return with_laws(plan.normal, plan.tangential, plan.couples,
-                     []<class Normal, class Tangential, laws::Couples couples>(Type<Normal>, Type<Tangential>,
-                                                                               Kind<couples>) -> WallKernel {
+                     [&]<class Normal, class Tangential, laws::Couples couples>(
+                         Type<Normal>, Type<Tangential>, Kind<couples>) -> WallKernel {
+                         if constexpr (laws::can_resolve<Normal> && couples == laws::Couples::none)
+                             if (plan.resolved)
+                                 return wall_forces<laws::Resolved<Normal>, Tangential, couples>;
                          return wall_forces<Normal, Tangential, couples>;
                      });
 }

@@ -68,7 +68,8 @@ void Simulation::add_step_error(analysis::Watched& w) const {
     for (const SampledContact& s : sample) {
         const double gap = s.phase * plan_.dt * s.impact.speed;
         const auto energy = [&](double dt) {
-            const double e = stepped_restitution(plan_.normal, plan_.order, s.impact, dt, gap);
+            const double e =
+                stepped_restitution(plan_.normal, {plan_.scheme, plan_.resolved}, s.impact, dt, gap);
             return e * e;
         };
         const double error = std::abs(energy(plan_.dt) - energy(0.5 * plan_.dt));

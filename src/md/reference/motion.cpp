@@ -24,14 +24,15 @@ double wrap(double x, double lower, double upper, double period, std::int32_t& i
 }
 
 // One degree of freedom: k = 0 and 1 by reference, the rest eight apart in `gear`.
-template <int order, bool do_correct, bool do_predict>
+template <int scheme, bool do_correct, bool do_predict>
 void step_value(double* gear, double& value, double& shift, double acceleration, double half_dt2) {
+    constexpr int order = motion::values_of(scheme);
     double x[order];
     x[0] = value;
     x[1] = shift;
     for (int k = 2; k < order; ++k) x[k] = gear[(k - 2) * 8];
-    if (do_correct) motion::gear_correct(x, acceleration, half_dt2);
-    if (do_predict) motion::gear_predict(x);
+    if (do_correct) motion::correct<scheme>(x, acceleration, half_dt2);
+    if (do_predict) motion::predict<scheme>(x);
     value = x[0];
     shift = x[1];
     for (int k = 2; k < order; ++k) gear[(k - 2) * 8] = x[k];
@@ -63,18 +64,19 @@ void settle(const MotionView& view, std::int64_t i, double bend, double* record,
     if (shift2 > result.largest_shift2) result.largest_shift2 = shift2;
 }
 
-template <int dimension, int order, Rotation rotation, bool do_correct, bool do_predict>
+template <int dimension, int scheme, Rotation rotation, bool do_correct, bool do_predict>
 MotionResult gear_step(const MotionView& view, std::int64_t begin, std::int64_t end) {
     using Fields = Record<dimension>;
     constexpr bool turns = rotation != Rotation::none, couples = rotation == Rotation::couples;
+    constexpr int order = motion::values_of(scheme);
     constexpr int dofs = degrees_of_freedom(dimension, turns), fields = force_stride(dimension, rotation);
     MotionResult result;
     double gain = 0; // by eights, as kernels add
     for (std::int64_t i = begin; i < end; ++i) {
         double* gear = view.gear + (i - i % 8) * dofs * (order - 2) + i % 8;
         const auto step = [&](int dof, double& value, double& shift, double acceleration) {
-            step_value<order, do_correct, do_predict>(gear + dof * (order - 2) * 8, value, shift,
-                                                      acceleration, view.half_dt2);
+            step_value<scheme, do_correct, do_predict>(gear + dof * (order - 2) * 8, value, shift,
+                                                       acceleration, view.half_dt2);
         };
         double force[fields] = {};
         if (do_correct)
@@ -131,22 +133,24 @@ template <int dimension> void bin_sites(const BinView& view, std::int64_t begin,
     }
 }
 
-template <int dimension, int order, Rotation rotation> void fill(DimensionKernels& t) {
+template <int dimension, int scheme, Rotation rotation> void fill(DimensionKernels& t) {
     constexpr int r = static_cast<int>(rotation);
-    t.predict[order - 3][r] = gear_step<dimension, order, rotation, false, true>;
-    t.correct[order - 3][r] = gear_step<dimension, order, rotation, true, false>;
-    t.advance[order - 3][r] = gear_step<dimension, order, rotation, true, true>;
+    t.predict[scheme - 3][r] = gear_step<dimension, scheme, rotation, false, true>;
+    t.correct[scheme - 3][r] = gear_step<dimension, scheme, rotation, true, false>;
+    t.advance[scheme - 3][r] = gear_step<dimension, scheme, rotation, true, true>;
 }
-template <int dimension, int order> void fill_rotations(DimensionKernels& t) {
-    fill<dimension, order, Rotation::none>(t);
-    fill<dimension, order, Rotation::friction>(t);
-    fill<dimension, order, Rotation::couples>(t);
+template <int dimension, int scheme> void fill_rotations(DimensionKernels& t) {
+    fill<dimension, scheme, Rotation::none>(t);
+    fill<dimension, scheme, Rotation::friction>(t);
+    fill<dimension, scheme, Rotation::couples>(t);
 }
 template <int dimension> void fill_dimension(DimensionKernels& t) {
     fill_rotations<dimension, 3>(t);
     fill_rotations<dimension, 4>(t);
     fill_rotations<dimension, 5>(t);
     fill_rotations<dimension, 6>(t);
+    fill<dimension, motion::verlet_with_slope, Rotation::none>(t);
+    fill<dimension, motion::verlet_with_slope, Rotation::friction>(t);
     t.bin = bin_sites<dimension>;
 }
 

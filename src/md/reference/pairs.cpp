@@ -130,7 +130,7 @@ double tile_forces(const PairView& view, const TileList& list, double* force, do
         if (!touches) continue;
         const auto f = laws::pair_force<Normal, Tangential, couples>(
             contact_state<dimension, Tangential, couples>(view, i, j),
-            coefficients<many_materials>(view, i, j), held, view.dt);
+            coefficients<many_materials>(view, i, j), held, view.dt, view.step);
         if (f.overlap > largest) largest = f.overlap;
         add<dimension, fields>(f, of(i), j >= list.begin && j < list.end ? of(j) : nullptr);
     }
@@ -147,6 +147,10 @@ void fill(DimensionKernels::Law& law) {
         }
         law.tile[kind][0] = tile_forces<dimension, Normal, Tangential, couples, false>;
         law.tile[kind][1] = tile_forces<dimension, Normal, Tangential, couples, true>;
+    }
+    if constexpr (laws::can_resolve<Normal> && couples == laws::Couples::none) {
+        law.resolved[0] = tile_forces<dimension, laws::Resolved<Normal>, Tangential, couples, false>;
+        law.resolved[1] = tile_forces<dimension, laws::Resolved<Normal>, Tangential, couples, true>;
     }
 }
 template <int dimension, class Normal, class Tangential> void fill_couples(DimensionKernels::Law& law) {
