@@ -111,7 +111,7 @@ def run(folder, scene, table, program, steps, dt, *more):
     numpy.savetxt(folder / "grains.csv", numpy.column_stack(list(table.values())), fmt="%.17g", delimiter=",",
                   header=",".join(table), comments="")
     runs.execute([measure.build / "sandlane", "run", "scene.toml", "--out", "out", "--steps", steps, "-j", 1, "--quiet",
-                  "--set", f"md.integrator={program}", "--set", f"md.dt={dt!r}",
+                  *(word for key in runs.overrides(program) for word in ("--set", key)), "--set", f"md.dt={dt!r}",
                   "--set", f"output.trajectory_every={steps * dt!r}", *more], folder)
     return runs.read_dump(folder / "out/trajectory.dump")
 
@@ -273,7 +273,7 @@ def costs(folder, programs, rounds, seconds):
         for program in programs:
             times.setdefault(program, []).append(
                 1 / race.lammps(folder / "springs", max(20, steps // 5)) if program == "lammps" else
-                1 / race.sandlane(folder / "springs", steps, [f"md.integrator={program}", *with_springs])[
+                1 / race.sandlane(folder / "springs", steps, [*runs.overrides(program), *with_springs])[
                     "particle_steps_per_second"])
     return {program: float(numpy.median(t)) for program, t in times.items()}
 

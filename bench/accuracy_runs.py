@@ -22,12 +22,12 @@ movie = false
 
 
 class Refused(Exception):
-    """The program finds the time step too long."""
+    """The program finds the time step too long, or does not resolve contacts of this law."""
 
 
 def execute(command, folder):
     done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True)
-    if done.returncode == 2 and "dt" in done.stderr:
+    if done.returncode == 2 and ("dt" in done.stderr or "contact_onset" in done.stderr):
         raise Refused(done.stderr)
     if done.returncode:
         raise SystemExit(f"{' '.join(map(str, command))}\n{done.stdout[-2000:]}{done.stderr}")

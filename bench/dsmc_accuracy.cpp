@@ -28,8 +28,8 @@ struct Result {
     double value, steps, seconds; // of all particles together: particle-steps, s
 };
 
-simd::GasScheme scheme_of(const std::string& name) {
-    using CollisionScheme = simd::GasScheme;
+laws::CollisionScheme scheme_of(const std::string& name) {
+    using laws::CollisionScheme;
     if (name == "direction-first") return CollisionScheme::direction_first;
     if (name == "nanbu-babovsky") return CollisionScheme::nanbu_babovsky;
     if (name == "majorant-frequency") return CollisionScheme::majorant_frequency;
