@@ -84,10 +84,14 @@ def fronts(groups, costs):
         hertz = "Hertz" in key[0]
         points = {(p, r): (costs[p, hertz] * r, e) for p, errors in series.items() for r, e in errors.items()
                   if math.isfinite(e)}
-        front = {a for a, (cost, error) in points.items()
-                 if not any(c < cost and e <= alike * error for c, e in points.values())}
-        found[key] = {a: cost for a, (cost, _) in points.items()}, front
+        found[key] = {a: cost for a, (cost, _) in points.items()}, front_of(points)
     return found
+
+
+def front_of(points):
+    """Members of the Pareto front of {name: (cost, error)}."""
+    return {a for a, (cost, error) in points.items()
+            if not any(c < cost and e <= alike * error for c, e in points.values())}
 
 
 def table(series, front):

@@ -22,12 +22,12 @@ movie = false
 
 
 class Refused(Exception):
-    """The program finds the time step too long."""
+    """The program finds the time step too long, or does not resolve contacts of this law."""
 
 
 def execute(command, folder):
     done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True)
-    if done.returncode == 2 and "dt" in done.stderr:
+    if done.returncode == 2 and ("dt" in done.stderr or "contact_onset" in done.stderr):
         raise Refused(done.stderr)
     if done.returncode:
         raise SystemExit(f"{' '.join(map(str, command))}\n{done.stdout[-2000:]}{done.stderr}")
@@ -153,17 +153,22 @@ def bounce(folder, integrator, ratio):
     return {"energy": rms((energy - right) / (gravity * height))}
 
 
-def gas(folder, integrator, hertz, ratio):
-    """Largest relative error of the energy of 36 undamped discs at packing fraction 0.77 until time 4."""
-    law = cases.Law(hertz, 1.0)
+def gas_start():
+    """36 discs at packing fraction 0.77 that move and do not touch, and the side of their box."""
     side, spacing = 6, 2.02 * cases.radius
     random = numpy.random.default_rng(1)
     grid = (numpy.indices((side, side)).reshape(2, -1) + 0.5) * spacing
     velocity = random.normal(0, 0.5 * cases.speed, (2, side**2))
     velocity -= velocity.mean(axis=1)[:, None]
     zero, one = numpy.zeros(side**2), numpy.ones(side**2)
-    grains = dict(zip(columns, (*grid, *velocity, zero, cases.radius * one, cases.mass * one)))
-    scene = f'[domain]\nupper = [{side * spacing}, {side * spacing}]\nperiodic = ["x", "y"]\n'
+    return dict(zip(columns, (*grid, *velocity, zero, cases.radius * one, cases.mass * one))), side * spacing
+
+
+def gas(folder, integrator, hertz, ratio):
+    """Largest relative error of the energy of the undamped discs until time 4."""
+    law = cases.Law(hertz, 1.0)
+    grains, size = gas_start()
+    scene = f'[domain]\nupper = [{size}, {size}]\nperiodic = ["x", "y"]\n'
     scene += materials(law, 0.0) + quiet + "log_every = 0.02\n"
     dt = law.answer[1] / ratio
     sandlane(clear(folder), scene, grains, integrator, round(4.0 / dt), dt)
@@ -175,15 +180,6 @@ def gas(folder, integrator, hertz, ratio):
 
 def lammps(folder, law, grains, steps, dt):
     """The same pairs by LAMMPS; its damping constants are multiplied by m_eff, ours are not."""
-    n = 2 * phases
-    density = cases.mass / (4 / 3 * math.pi * cases.radius**3)
-    lines = [f"pairs\n\n{n} atoms\n1 atom types\n\n0 {box()[0]} xlo xhi\n0 {box()[1]} ylo yhi\n-1 1 zlo zhi\n",
-             "Atoms # sphere\n"]
-    lines += [f"{i + 1} 1 {2 * cases.radius} {density!r} {float(grains['x'][i])!r} {float(grains['y'][i])!r} 0"
-              for i in range(n)]
-    lines += ["\nVelocities\n"]
-    lines += [f"{i + 1} {float(grains['vx'][i])!r} {float(grains['vy'][i])!r} 0 0 0 0" for i in range(n)]
-    folder.joinpath("data.lmp").write_text("\n".join(lines) + "\n")
     gamma = law.damping * (cases.stiffness if law.hertz else 1) / cases.effective_mass
     tangential = law.tangential_damping / cases.effective_mass
     limit = "limit_damping" if law.cut else ""
@@ -191,17 +187,32 @@ def lammps(folder, law, grains, steps, dt):
         "granular", f"* * hertz {cases.stiffness} {gamma!r} tangential linear_nohistory 0 0 damping viscoelastic "
         f"{limit}") if law.hertz else (
         f"gran/hooke {cases.stiffness} NULL {gamma!r} {tangential!r} {law.friction} 1 {limit}", "* *"))
+    return lammps_run(folder, grains, box(), (pair, coefficients), steps, dt)
+
+
+def lammps_run(folder, grains, size, pair, steps, dt, boundary="p p p", more=""):
+    """State after `steps` steps of discs between 0 and `size`; pair: style and coefficients; more: lines of the script."""
+    n = len(grains["x"])
+    density = cases.mass / (4 / 3 * math.pi * cases.radius**3)
+    lines = [f"discs\n\n{n} atoms\n1 atom types\n\n0 {size[0]} xlo xhi\n0 {size[1]} ylo yhi\n-1 1 zlo zhi\n",
+             "Atoms # sphere\n"]
+    lines += [f"{i + 1} 1 {2 * cases.radius} {density!r} {float(grains['x'][i])!r} {float(grains['y'][i])!r} 0"
+              for i in range(n)]
+    lines += ["\nVelocities\n"]
+    lines += [f"{i + 1} {float(grains['vx'][i])!r} {float(grains['vy'][i])!r} 0 0 0 0" for i in range(n)]
+    folder.joinpath("data.lmp").write_text("\n".join(lines) + "\n")
     folder.joinpath("in.lmp").write_text(f"""units si
 dimension 2
 atom_style sphere
-boundary p p p
+boundary {boundary}
 newton on
 comm_modify vel yes
 read_data data.lmp
-pair_style {pair}
-pair_coeff {coefficients}
+pair_style {pair[0]}
+pair_coeff {pair[1]}
 neighbor 0.5 bin
 fix move all nve/sphere disc
+{more}
 timestep {dt!r}
 run {steps}
 write_dump all custom lammps.dump id x y vx vy omegaz radius mass modify sort id format float %.17g
