@@ -189,6 +189,19 @@ void add_sizes() {
             }
 }
 
+// Numbers of grains for `tools/bench scaling` that the cases above do not have.
+void add_scaling() {
+    for (const std::size_t n : {4000U, 16000U, 64000U, 250000U, 10000000U}) {
+        bench::Setup setup{n, 0.82};
+        setup.neighbours = NeighbourMethod::verlet;
+        add({setup, simd::available_isas().back()});
+    }
+    bench::Setup spheres{10000000, 0.64, 3, scene::NormalLaw::viscoelastic};
+    spheres.neighbours = NeighbourMethod::verlet;
+    spheres.springs = true;
+    add({spheres, simd::available_isas().back()});
+}
+
 // ---- what is not computed, on against off
 
 // Discs in a round pile on the floor of a wide box with a ceiling of many pieces that they never reach.
@@ -257,6 +270,30 @@ void outputs(benchmark::State& state, std::int64_t every) {
         static_cast<double>(steps) * static_cast<double>(simulation.state().size()) / clock.seconds();
 }
 
+// Steps of one length, and steps whose length follows the contacts: whole steps, whatever their length.
+void adaptive(benchmark::State& state, bool adapts) {
+    const bench::Setup setup{
+        10000, 0.82, 2, scene::NormalLaw::viscoelastic, true, false, NeighbourMethod::verlet};
+    scene::Scene s = bench::agitated_scene(setup);
+    const auto& grains = agitated(setup);
+    s.md.adaptive_dt = adapts;
+    const md::Needs needs = md::analyse(s, grains);
+    md::Simulation simulation(
+        s, grains, needs,
+        md::make_plan(s, needs, md::derive(s, needs), simd::available_isas().back(), {1, "benchmark"}));
+    const std::int64_t block = md::sort_interval * simulation.plan().largest_stride;
+    simulation.run(block);
+    const std::int64_t before = simulation.taken(), from = simulation.step();
+    const Stopwatch clock;
+    for (auto _ : state) simulation.run(block);
+    const auto steps = static_cast<double>(simulation.taken() - before);
+    state.counters["particle_steps_per_second"] =
+        steps * static_cast<double>(grains.size()) / clock.seconds();
+    state.counters["mean_step"] = // in units of the step that does not adapt
+        static_cast<double>(simulation.step() - from) / static_cast<double>(simulation.plan().base_stride) /
+        steps;
+}
+
 // Two compartments: a gas in the upper one, grains at rest that do not touch in the lower one.
 void at_rest(benchmark::State& state, bool freeze) {
     const bench::Setup setup{
@@ -297,6 +334,8 @@ void add_parts() {
     add_part("part/walls/near", [](benchmark::State& state) { walls(state, true); });
     add_part("part/rest/computed", [](benchmark::State& state) { at_rest(state, false); });
     add_part("part/rest/frozen", [](benchmark::State& state) { at_rest(state, true); });
+    add_part("part/adaptive/on", [](benchmark::State& state) { adaptive(state, true); });
+    add_part("part/adaptive/off", [](benchmark::State& state) { adaptive(state, false); });
     add_part("part/outputs/always", [](benchmark::State& state) { outputs(state, 1); });
     add_part("part/outputs/never", [](benchmark::State& state) { outputs(state, 64); });
 }
@@ -325,6 +364,7 @@ int main(int argc, char** argv) {
         add_space();
         add_skips();
         add_sizes();
+        add_scaling();
         add_parts();
     }
     benchmark::Initialize(&argc, argv);

@@ -8,8 +8,10 @@ import argparse
 import importlib
 import json
 import pathlib
+import re
 import subprocess
 import sys
+import time
 
 import measure
 import scene_runs
@@ -90,7 +92,8 @@ def skips(options):
               case("half", f"{rough}+half_empty", isa=isa), 2)]
     rows += [("walls out of reach *", "part/walls/all", "part/walls/near", 1),
              ("tiles at rest", "part/rest/computed", "part/rest/frozen", 1),
-             ("outputs not due", "part/outputs/always", "part/outputs/never", 1)]
+             ("outputs not due", "part/outputs/always", "part/outputs/never", 1),
+             ("choice of the step **", "part/adaptive/on", "part/adaptive/off", 1)]
     found = measure.steps(sorted({c for row in rows for c in row[1:3]}), options.rounds, options.seconds, "skips")
     print(f"{'skipped':<24}{'method':<9}{'computed':>12}{'skipped':>12}{'gain':>9}")
     for what, with_it, without, sites in rows:
@@ -98,6 +101,7 @@ def skips(options):
         print(f"{what:<24}{with_it.split('/')[1]:<9}{measure.median(a) / sites / 1e6:>10.1f} M"
               f"{measure.median(b) / 1e6:>10.1f} M{sites * measure.ratio(b, a):>9.2f}")
     print("* their part of a step alone")
+    print(f"** md.adaptive_dt: {measure.median(found['part/adaptive/on'], 'mean_step'):.2f} of the step that does not adapt")
 
 
 def sizes(options):
@@ -111,6 +115,43 @@ def sizes(options):
     for (space, method, classes), (_, _, one) in zip(rows[::2], rows[1::2]):
         print(f"{'1:100' if space == 'md/' else '1:20':<8}{method:<8}{measure.median(found[one]) / 1e6:>8.2f} M"
               f"{measure.median(found[classes]) / 1e6:>8.2f} M{measure.ratio(found[classes], found[one]):>7.1f}")
+
+
+def scaling(options):
+    """From few grains to many, one thread: particle-steps per second, and what is lost against the best number of grains."""
+    isa = measure.info()[0][-1]
+    rows = {"discs, linear dashpot": [case("verlet", n=n, isa=isa) for n in (4000, 16000, 64000, 250000, 1000000, 10000000)],
+            "spheres, Hertz, springs": [case("verlet", "hertz+springs", 0.64, n, isa, dimension=3)
+                                        for n in (4096, 32768, 262144, 1000000, 10000000)]}
+    rows = {name: [c for c in cases if int(c.split("N=")[1].split("/")[0]) <= options.most] for name, cases in rows.items()}
+    found = measure.steps([c for cases in rows.values() for c in cases], options.rounds, options.seconds, "scaling")
+    print(f"{'state':<26}{'grains':>10}{'steps/s':>10}{'loss':>7}{'bytes/grain':>13}")
+    for name, cases in rows.items():
+        best = max(measure.median(found[c]) for c in cases)
+        for c in cases:
+            n = int(c.split("N=")[1].split("/")[0])
+            print(f"{name:<26}{n:>10}{measure.median(found[c]) / 1e6:>8.1f} M{1 - measure.median(found[c]) / best:>7.0%}"
+                  f"{measure.median(found[c], 'working_set') / n:>13.0f}")
+
+
+def packings(options):
+    """Random start states of small grains around two large ones: seconds of `sandlane check`, which makes them."""
+    scene = measure.results / "packing.toml"
+    scene.parent.mkdir(parents=True, exist_ok=True)
+    print(f"{'radii':<12}{'grains':>8}{'seconds':>9}")
+    for dimension, ratio, small in ((2, 10, 0.004), (2, 100, 0.001), (2, 1000, 0.0002), (3, 10, 0.016), (3, 20, 0.01)):
+        large, upper = ratio * small, [1] * dimension
+        items = ", ".join(f"{{ position = {[at] * dimension}, radius = {large} }}" for at in (0.25, 0.75))
+        fraction = (0.4 if dimension == 2 else 0.2) * options.part
+        scene.write_text(f'title = "packing"\ndomain = {{ dimension = {dimension}, upper = {upper} }}\n'
+                         'md = { normal = "linear-dashpot", tangential = "none" }\n'
+                         'materials = [{ name = "m", stiffness = 3e5 }]\n'
+                         f'[[grains]]\nkind = "list"\nitems = [{items}]\n[[grains]]\nkind = "random"\n'
+                         f'radius = {{ law = "uniform", min = {0.9 * small}, max = {small} }}\npacking_fraction = {fraction}\n')
+        begin = time.perf_counter()
+        text = subprocess.run([measure.build / "sandlane", "check", scene], capture_output=True, text=True, check=True).stdout
+        seconds = time.perf_counter() - begin
+        print(f"1:{ratio}, {dimension}D{'':<5}{re.search(r'grains +([0-9]+)', text)[1]:>8}{seconds:>9.2f}", flush=True)
 
 
 def scenes(options):
@@ -260,6 +301,12 @@ def main():
     sub = command("sizes", sizes, "grids of cells for classes of radii against one for all")
     sub.add_argument("--rounds", type=int, default=3, help="times that all cases run in turn")
     sub.add_argument("--seconds", type=float, default=0.2, help="least time of one run")
+    sub = command("scaling", scaling, "from few grains to many: rates, and what is lost against the best")
+    sub.add_argument("--most", type=float, default=1e6, help="largest number of grains; 1e7 takes 12 GB and ten minutes")
+    sub.add_argument("--rounds", type=int, default=3, help="times that all cases run in turn")
+    sub.add_argument("--seconds", type=float, default=0.5, help="least time of one run")
+    sub = command("packings", packings, "random start states of small grains around large ones: time to make them")
+    sub.add_argument("--part", type=float, default=1.0, help="of the packing fraction, 0.4 in 2D and 0.2 in 3D")
     sub = command("scenes", scenes, "shipped scenes: what `auto` loses against the best method of finding pairs")
     sub.add_argument("scene", nargs="*", help="names of scenes; all if none is given")
     sub.add_argument("--rounds", type=int, default=3, help="times that all methods run in turn")

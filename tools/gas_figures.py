@@ -21,6 +21,7 @@ root = pathlib.Path(__file__).resolve().parent.parent
 work = root / "build/gas-figures"
 scenes = root / "data/scenes"
 pictures = root / "docs/pictures"
+prefix = "gas-"
 nan = float("nan")
 
 
@@ -51,9 +52,9 @@ def plot(name, x, units, series, *options):
                 row[n] = value
                 print(",".join(str(v) for v in (at, *row)), file=out)
     dots = ",".join(key for key in series if key.endswith("run"))
-    subprocess.run([sys.executable, root / "tools/plot.py", pictures / f"gas-{name}.svg", table, x, ",".join(series),
+    subprocess.run([sys.executable, root / "tools/plot.py", pictures / f"{prefix}{name}.svg", table, x, ",".join(series),
                     "--points", dots, *options], check=True)
-    print(f"docs/pictures/gas-{name}.svg")
+    print(f"docs/pictures/{prefix}{name}.svg")
 
 
 def thinned(points, parts):
@@ -199,4 +200,5 @@ def main():
         figures[name](options.program)
 
 
-main()
+if __name__ == "__main__":
+    main()

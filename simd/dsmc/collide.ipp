@@ -190,9 +190,9 @@ struct Chosen {
     std::int32_t accepted, left;
 };
 template <class Arch, int dimension, bool mixed, bool heard, bool near>
-SANDLANE_INLINE Chosen choose_pairs(const GasCollisionView& view, const Philox& random, const Philox& more,
-                                    const CandidateLists& lists, std::int32_t active, std::uint32_t k,
-                                    GasCollisions& result) {
+SANDLANE_INLINE Chosen choose_pairs(const GasCollisionView& view, const Philox& random,
+                                    const Philox& partners, const CandidateLists& lists, std::int32_t active,
+                                    std::uint32_t k, GasCollisions& result) {
     using R = Block<Arch>;
     using W = Words<Arch>;
     Chosen chosen{0, 0};
@@ -210,7 +210,7 @@ SANDLANE_INLINE Chosen choose_pairs(const GasCollisionView& view, const Philox& 
         const W i = right<32>(product(draw.w[0], size));
         W j = right<32>(product(draw.w[1], size - W(1)));
         j = j + W(1) - right<63>(j - i); // the sign bit says j < i
-        if constexpr (near) j = nearest_partner<Arch>(view, more(number), begin, size, i, j);
+        if constexpr (near) j = nearest_partner<Arch>(view, partners(number), begin, size, i, j);
         const W first = left<5>(i + begin), second = left<5>(j + begin);
         static_assert(gas_row * sizeof(double) == 1 << 5);
         alignas(64) std::uint64_t offsets[2][width];

@@ -1,8 +1,8 @@
 // Grains that come and go while a run goes on: pours and factories, sinks, open sides of the domain.
 #include "core/error.hpp"
 #include "md/simulation.hpp"
-#include "scene/cell_grid.hpp"
 #include "scene/population.hpp"
+#include "scene/sized_grids.hpp"
 
 #include <fmt/format.h>
 
@@ -23,17 +23,17 @@ class Simulation::Room {
 public:
     explicit Room(const Simulation& simulation)
         : simulation_(simulation), box_(simulation.box(simulation.time())),
-          grid_(box_, 2 * simulation.needs_.radius_max,
-                simulation.state_.size() + simulation.waiting_.size() - simulation.next_waiting_) {
+          grids_(box_, simulation.state_.size() + simulation.waiting_.size() - simulation.next_waiting_,
+                 [&](std::size_t i) { return radius(simulation, i); }) {
         for (std::size_t i = 0; i < simulation.state_.size(); ++i)
-            grid_.insert(simulation.state_.position(i));
+            add(simulation.state_.position(i), simulation.state_.radius(i));
     }
 
-    void add(Vec position) { grid_.insert(position); }
+    void add(Vec position, double radius) { grids_.insert(position, radius); }
 
     [[nodiscard]] bool for_grain(Vec position, double radius) const {
         bool room = true;
-        grid_.for_near(position, [&](std::size_t i) {
+        grids_.for_near(position, radius, [&](std::size_t i) {
             const Vec d = box_.separation(position, simulation_.state_.position(i));
             const double reach = simulation_.state_.radius(i) + radius;
             room = room && !(dot(d, d) < reach * reach);
@@ -57,9 +57,16 @@ public:
     }
 
 private:
+    // Those that are there, then those that will come.
+    static double radius(const Simulation& simulation, std::size_t i) {
+        const std::size_t there = simulation.state_.size();
+        return i < there ? simulation.state_.radius(i)
+                         : simulation.waiting_[simulation.next_waiting_ + i - there].radius;
+    }
+
     const Simulation& simulation_;
     scene::Box box_;
-    scene::CellGrid grid_;
+    scene::SizedGrids grids_;
 };
 
 void Simulation::insert_due() {
@@ -81,7 +88,7 @@ void Simulation::insert_due() {
             continue;
         }
         state_.append(with_shear_flow(grain), plan_.dt);
-        room.add(grain.position);
+        room.add(grain.position, grain.radius);
         const std::size_t i = state_.size() - 1;
         const std::vector<double> no_force(state_.force_stride());
         state_.set_accelerations(i, no_force.data(), motion_view(force_step_));

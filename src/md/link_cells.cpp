@@ -25,10 +25,10 @@ LinkCells::LinkCells(const scene::Scene& scene, const Plan& plan, const Needs& n
     const Vec size = plan.upper - plan.lower;
     lower_ = {plan.lower.x, plan.lower.y, plan.lower.z};
     length_ = {size.x, size.y, size.z};
-    std::vector<SizeClass> classes = needs.sizes;
+    std::vector<scene::SizeClass> classes = needs.sizes;
     if (brute_force || classes.size() < 2) classes = {{needs.radius_max, needs.grains + needs.poured}};
     grids_.clear();
-    for (const SizeClass& c : classes) {
+    for (const scene::SizeClass& c : classes) {
         Grid& grid = grids_.emplace_back();
         grid.largest = c.largest;
         // Empty cells cost time, too: where there are several grids, each has a few cells per grain of its

@@ -76,15 +76,15 @@ double content(const Scene& scene) {
 
 // Of radii; one, where several would cost more than they save. Grains are taken to fill half of the room that
 // they are in.
-std::vector<SizeClass> useful_classes(const Scene& scene, const Needs& needs,
-                                      const std::vector<scene::GrainState>& grains) {
-    std::vector<SizeClass> classes =
-        size_classes(grains.size(), [&](std::size_t i) { return grains[i].radius; });
+std::vector<scene::SizeClass> useful_classes(const Scene& scene, const Needs& needs,
+                                             const std::vector<scene::GrainState>& grains) {
+    std::vector<scene::SizeClass> classes =
+        scene::size_classes(grains.size(), [&](std::size_t i) { return grains[i].radius; });
     if (classes.size() < 2) return classes;
     const double room = content(scene) * std::min(1.0, 2 * needs.packing_fraction);
     const double cell = std::pow(2 * needs.radius_max, static_cast<double>(scene.domain.dimension));
     const double per_cell = static_cast<double>(grains.size()) * std::min(1.0, cell / room);
-    if (per_cell > grains_per_class * static_cast<double>(classes.size())) return classes;
+    if (per_cell > scene::grains_per_class * static_cast<double>(classes.size())) return classes;
     return {{needs.radius_max, grains.size()}};
 }
 

@@ -4,10 +4,10 @@
 
 #include "core/parallel.hpp"
 #include "laws/contact.hpp"
-#include "md/size_classes.hpp"
 #include "motion/gear.hpp"
 #include "scene/initial_state.hpp"
 #include "scene/scene.hpp"
+#include "scene/size_classes.hpp"
 #include "simd/tables.hpp"
 
 #include <cstdint>
@@ -24,8 +24,8 @@ struct Needs {
     bool many_radii = false, many_materials = false, friction = false;
     bool memory = false; // contacts remember
     laws::Couples couples =
-        laws::Couples::none;      // rolling friction, or lever arms to the plane of the contact
-    std::vector<SizeClass> sizes; // of radii, from the smallest up
+        laws::Couples::none;             // rolling friction, or lever arms to the plane of the contact
+    std::vector<scene::SizeClass> sizes; // of radii, from the smallest up
     bool walls = false, moving_walls = false, gravity = false, spinning = false;
     double packing_fraction = 0; // grain area or volume over that of the domain
 };

@@ -1,11 +1,8 @@
-// Forces of walls in 3D on grains, one kernel per law of laws.def, and what becomes of the memory of a
-// contact that passes from one piece of a wall to the next.
+// Forces of walls in 3D on grains, one kernel per law of laws.def.
 #include "md/law_choice.hpp"
-#include "md/records.hpp"
-#include "md/walls.hpp"
+#include "md/passing_contacts.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace sandlane::md {
 
@@ -13,61 +10,18 @@ namespace {
 
 using Entry = SurfaceContacts::Entry;
 
-// Candidates of one grain and what their contacts remember: number f of candidate n at memory[f * stride +
-// n].
-struct Candidates {
-    const NearWall *begin, *end;
-    double* memory;
-    std::ptrdiff_t stride;
-
-    [[nodiscard]] double* of(std::uint32_t element) const {
-        const NearWall* n = std::lower_bound(
-            begin, end, element, [](const NearWall& near, std::uint32_t e) { return near.element < e; });
-        return memory + (n - begin);
-    }
-};
-
-bool remembers(const double* memory) {
-    return *memory < 0.5 * laws::no_contact;
-}
-
-// A contact moves less than this within a step, in units of the grain's radius: what begins farther from one
-// that ended is new.
-constexpr double passage = 0.25;
-
-// The contact on a piece that the grain does not touch any more goes on as the one on a piece of the same
-// wall that begins where it was.
+// Contacts that passed to another triangle take their memory along.
 void pass_on(const Walls& walls, const RecordedGrain& g, const std::vector<Entry>& touching,
-             const Candidates& candidates) {
+             const WallCandidates& candidates) {
     const auto touches = [&](std::uint32_t element) {
         return std::any_of(touching.begin(), touching.end(),
                            [&](const Entry& t) { return t.element == element; });
     };
-    const auto forget = [&](double* memory) {
-        for (int f = 0; f < walls.fields(); ++f) memory[f * candidates.stride] = laws::no_contact;
-    };
-    for (const Entry& t : touching) {
-        double* const own = candidates.of(t.element);
-        if (remembers(own)) continue;
-        const Vec point = g.position + t.contact.distance * t.contact.direction;
-        double nearest = passage * g.radius;
-        double* old = nullptr;
-        for (const NearWall* n = candidates.begin; n != candidates.end; ++n) {
-            double* const other = candidates.memory + (n - candidates.begin);
-            if (!remembers(other) || touches(n->element) ||
-                walls.element(n->element).wall != walls.element(t.element).wall)
-                continue;
-            const double distance = norm(walls.closest_point(n->element, g.position) - point);
-            if (distance >= nearest) continue;
-            nearest = distance;
-            old = other;
-        }
-        if (old == nullptr) continue;
-        for (int f = 0; f < walls.fields(); ++f) own[f * candidates.stride] = old[f * candidates.stride];
-        forget(old);
-    }
-    for (const NearWall* n = candidates.begin; n != candidates.end; ++n)
-        if (!touches(n->element)) forget(candidates.memory + (n - candidates.begin));
+    for (const Entry& t : touching)
+        if (!remembers(candidates.of(t.element)))
+            take_over(walls, g, candidates, t.element, g.position + t.contact.distance * t.contact.direction,
+                      touches);
+    forget_ended(walls, candidates, touches);
 }
 
 Vector<double> vector(Vec v) {
@@ -123,7 +77,7 @@ WallResult surface_forces(const Walls& walls, const WallInput& input, const Near
         const RecordedGrain g =
             recorded_grain<3>(input.records + i * simd::record_fields, spin, input.inverse_dt);
         walls.find_contacts(g.position, g.radius, first, last, contacts);
-        Candidates candidates{first, last, nullptr, input.stride};
+        WallCandidates candidates{first, last, nullptr, input.stride};
         if constexpr (has_memory) {
             candidates.memory = input.memory + (first - input.near);
             pass_on(walls, g, contacts.entries, candidates);

@@ -56,7 +56,7 @@ Vec Walls::in_frame(std::size_t frame, Vec p) const {
     return motion < 0 ? p : rigid_[static_cast<std::size_t>(motion)].reference_of(p);
 }
 
-Vec Walls::closest_point(std::size_t e, Vec p) const {
+Vec Walls::closest_on_surface(std::size_t e, Vec p) const {
     const motion::RigidState* rigid = rigid_of(e);
     if (rigid == nullptr) return scene::closest_point(surfaces_->piece(e), p);
     return rigid->position_of(scene::closest_point(surfaces_->piece(e), rigid->reference_of(p)));

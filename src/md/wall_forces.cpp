@@ -1,7 +1,6 @@
 // Forces of walls on grains: candidate list, its upkeep, and the kernels, one per law of laws.def.
 #include "md/law_choice.hpp"
-#include "md/records.hpp"
-#include "md/walls.hpp"
+#include "md/passing_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,41 +29,85 @@ laws::PairState<double> state_of(const RecordedGrain& g, const WallContact& c) {
     return s;
 }
 
+bool is_touched(const WallContact& c, const RecordedGrain& g) {
+    return c.valid && c.distance < g.radius + c.radius;
+}
+
+// Adds the force of a contact. remembered: its first number, null of laws without memory.
 template <class Normal, class Tangential, laws::Couples couples>
-WallResult wall_forces(const Walls& walls, const WallInput& input, const NearWall* begin,
-                       const NearWall* end) {
+void add_contact(const Walls& walls, const WallInput& input, const NearWall& near, const RecordedGrain& g,
+                 const WallContact& c, double* remembered, WallResult& result) {
+    constexpr int memory = laws::memory_of<Normal, Tangential, couples, 2>;
+    const std::size_t i = near.grain;
+    const WallElement& element = walls.elements()[near.element];
+    const double* k = input.coefficients +
+                      (input.material[i] * input.materials + element.material) * laws::pair_coefficients;
+    double held[memory + 1];
+    for (int m = 0; m < memory; ++m) held[m] = remembered[m * input.stride];
+    const auto f = laws::pair_force<Normal, Tangential, couples>(
+        state_of(g, c), laws::coefficients_from<double>(k), held, input.dt, input.dt);
+    for (int m = 0; m < memory; ++m) remembered[m * input.stride] = held[m];
+    double* force = input.force + (i - input.first) * 4;
+    force[0] += f.x;
+    force[1] += f.y;
+    force[2] += f.tangential;
+    force[3] += f.couple;
+    result.power += f.x * c.velocity.x + f.y * c.velocity.y - f.tangential * c.spin;
+    if constexpr (couples != laws::Couples::none) result.power += f.couple * c.angular_velocity.z;
+    result.see(f.overlap / g.radius, i, element.wall);
+}
+
+RecordedGrain grain_of(const WallInput& input, std::size_t grain) {
+    return recorded_grain<2>(input.records + grain * simd::record_fields, nullptr, input.inverse_dt);
+}
+
+template <class Normal, class Tangential, laws::Couples couples>
+WallResult forces_without_memory(const Walls& walls, const WallInput& input, const NearWall* begin,
+                                 const NearWall* end) {
     WallResult result;
     for (const NearWall* n = begin; n != end; ++n) {
-        const std::size_t i = n->grain;
-        const RecordedGrain g =
-            recorded_grain<2>(input.records + i * simd::record_fields, nullptr, input.inverse_dt);
+        const RecordedGrain g = grain_of(input, n->grain);
         const WallContact c = walls.contact(n->element, g.position);
-        const double reach = g.radius + c.radius;
-        constexpr int memory = laws::memory_of<Normal, Tangential, couples, 2>;
-        double* const remembered = memory > 0 ? input.memory + (n - input.near) : nullptr;
-        if (!c.valid || c.distance >= reach) {
-            for (int m = 0; m < memory; ++m) remembered[m * input.stride] = laws::no_contact;
-            continue;
-        }
-        const WallElement& element = walls.elements()[n->element];
-        const double* k = input.coefficients +
-                          (input.material[i] * input.materials + element.material) * laws::pair_coefficients;
-        const laws::PairState<double> pair = state_of(g, c);
-        double held[memory + 1];
-        for (int m = 0; m < memory; ++m) held[m] = remembered[m * input.stride];
-        const auto f = laws::pair_force<Normal, Tangential, couples>(pair, laws::coefficients_from<double>(k),
-                                                                     held, input.dt, input.dt);
-        for (int m = 0; m < memory; ++m) remembered[m * input.stride] = held[m];
-        double* force = input.force + (i - input.first) * 4;
-        force[0] += f.x;
-        force[1] += f.y;
-        force[2] += f.tangential;
-        force[3] += f.couple;
-        result.power += f.x * c.velocity.x + f.y * c.velocity.y - f.tangential * c.spin;
-        if constexpr (couples != laws::Couples::none) result.power += f.couple * c.angular_velocity.z;
-        result.see(f.overlap / g.radius, i, element.wall);
+        if (is_touched(c, g))
+            add_contact<Normal, Tangential, couples>(walls, input, *n, g, c, nullptr, result);
     }
     return result;
+}
+
+// Grain by grain: a contact that begins may be one that another piece of the wall has lost.
+template <class Normal, class Tangential, laws::Couples couples>
+WallResult forces_with_memory(const Walls& walls, const WallInput& input, const NearWall* begin,
+                              const NearWall* end) {
+    WallResult result;
+    for (const NearWall *first = begin, *last = begin; first != end; first = last) {
+        while (last != end && last->grain == first->grain) ++last;
+        const RecordedGrain g = grain_of(input, first->grain);
+        const WallCandidates candidates{first, last, input.memory + (first - input.near), input.stride};
+        const auto touches = [&](std::uint32_t element) {
+            return is_touched(walls.contact(element, g.position), g);
+        };
+        bool ended = false;
+        for (const NearWall* n = first; n != last; ++n) {
+            const WallContact c = walls.contact(n->element, g.position);
+            double* const remembered = input.memory + (n - input.near);
+            if (!is_touched(c, g)) {
+                ended = ended || remembers(remembered);
+                continue;
+            }
+            if (!remembers(remembered))
+                take_over(walls, g, candidates, n->element, g.position + c.distance * c.direction, touches);
+            add_contact<Normal, Tangential, couples>(walls, input, *n, g, c, remembered, result);
+        }
+        if (ended) forget_ended(walls, candidates, touches);
+    }
+    return result;
+}
+
+template <class Normal, class Tangential, laws::Couples couples> WallKernel kernel_of() {
+    if constexpr ((laws::memory_of<Normal, Tangential, couples, 2>) != 0)
+        return forces_with_memory<Normal, Tangential, couples>;
+    else
+        return forces_without_memory<Normal, Tangential, couples>;
 }
 
 } // namespace
@@ -75,8 +118,8 @@ WallKernel wall_kernel(const Plan& plan) {
                          Type<Normal>, Type<Tangential>, Kind<couples>) -> WallKernel {
                          if constexpr (laws::can_resolve<Normal> && couples == laws::Couples::none)
                              if (plan.resolved)
-                                 return wall_forces<laws::Resolved<Normal>, Tangential, couples>;
-                         return wall_forces<Normal, Tangential, couples>;
+                                 return kernel_of<laws::Resolved<Normal>, Tangential, couples>();
+                         return kernel_of<Normal, Tangential, couples>();
                      });
 }
 
@@ -115,11 +158,8 @@ private:
         switch (e.kind) {
         case WallElement::Kind::plane:
             return dot(p - e.a, e.b) < distance;
-        case WallElement::Kind::segment: {
-            const Vec along = e.b - e.a;
-            const double s = std::clamp(dot(p - e.a, along) / dot(along, along), 0.0, 1.0);
-            return norm(p - e.a - s * along) < distance;
-        }
+        case WallElement::Kind::segment:
+            return norm(p - closest_on_segment(e, p)) < distance;
         case WallElement::Kind::vertex:
             return norm(p - e.a) < distance;
         case WallElement::Kind::arc:
@@ -144,11 +184,8 @@ double surface_distance(const WallElement& e, Vec p) {
     switch (e.kind) {
     case WallElement::Kind::plane:
         return dot(p - e.a, e.b);
-    case WallElement::Kind::segment: {
-        const Vec along = e.b - e.a;
-        const double s = std::clamp(dot(p - e.a, along) / dot(along, along), 0.0, 1.0);
-        return norm(p - e.a - s * along);
-    }
+    case WallElement::Kind::segment:
+        return norm(p - closest_on_segment(e, p));
     case WallElement::Kind::vertex:
         return norm(p - e.a);
     case WallElement::Kind::arc:

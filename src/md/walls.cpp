@@ -12,6 +12,8 @@ namespace sandlane::md {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
+// Square of the sum of two unit vectors that differ by less than 0.01.
+constexpr double straight = 4 - 0.01 * 0.01;
 
 Vec unit(Vec v) {
     return (1.0 / norm(v)) * v;
@@ -31,17 +33,8 @@ WallContact towards(Vec position, Vec closest) {
     return c;
 }
 
-WallContact segment_contact(const WallElement& e, Vec p) {
-    const Vec along = e.b - e.a;
-    const double s = dot(p - e.a, along) / dot(along, along);
-    if (!(s >= 0 && s <= 1)) return {};
-    return towards(p, e.a + s * along);
-}
-
-WallContact vertex_contact(const WallElement& e, Vec p) {
-    for (int n = 0; n < e.neighbours; ++n)
-        if (dot(p - e.a, e.along[n]) >= 0) return {};
-    return towards(p, e.a);
+bool is_own(const WallElement& e, Vec p) {
+    return dot(p - e.a, e.after) >= 0 && (e.open_end || dot(p - e.b, e.before) < 0);
 }
 
 WallContact arc_contact(const WallElement& e, Vec p) {
@@ -131,18 +124,33 @@ void Walls::add_wall(const scene::Scene& scene, std::size_t index) {
 
 void Walls::add_chain(const std::vector<Vec>& points, bool closed, WallElement prototype) {
     const std::size_t n = points.size(), segments = closed ? n : n - 1;
+    const auto has_segment = [&](std::size_t s) { return closed || s + 1 < n; };
+    const auto along = [&](std::size_t s) { return points[(s + 1) % n] - points[s]; };
+    const auto is_joint = [&](std::size_t v) { return closed || (v > 0 && v + 1 < n); };
+    // Across a straight joint the nearer segment is touched, across a bent one both or its vertex.
+    const auto middle = [&](std::size_t v) { return unit(along((v + n - 1) % n)) + unit(along(v)); };
+    const auto is_straight = [&](std::size_t v) {
+        return is_joint(v) && dot(middle(v), middle(v)) > straight;
+    };
     for (std::size_t s = 0; s < segments; ++s) {
-        prototype.kind = WallElement::Kind::segment;
-        prototype.a = points[s];
-        prototype.b = points[(s + 1) % n];
-        reference_.push_back(prototype);
+        const std::size_t end = (s + 1) % n;
+        WallElement e = prototype;
+        e.kind = WallElement::Kind::segment;
+        e.a = points[s];
+        e.b = points[end];
+        e.along = along(s);
+        e.after = is_straight(s) ? middle(s) : e.along;
+        e.before = is_straight(end) ? middle(end) : e.along;
+        reference_.push_back(e);
     }
     for (std::size_t v = 0; v < n; ++v) {
+        if (is_straight(v)) continue;
         WallElement e = prototype;
         e.kind = WallElement::Kind::vertex;
         e.a = e.b = points[v];
-        if (closed || v > 0) e.along[e.neighbours++] = unit(points[(v + n - 1) % n] - points[v]);
-        if (closed || v + 1 < n) e.along[e.neighbours++] = unit(points[(v + 1) % n] - points[v]);
+        if (closed || v > 0) e.after = along((v + n - 1) % n);
+        e.open_end = !has_segment(v);
+        if (!e.open_end) e.before = along(v);
         reference_.push_back(e);
     }
 }
@@ -171,8 +179,16 @@ void Walls::move_to(double time) {
         to.a = rigid.position_of(from.a);
         to.b = from.kind == WallElement::Kind::plane ? rigid.rotate(from.b) : rigid.position_of(from.b);
         to.angle_from = from.angle_from + rigid.angle;
-        for (int n = 0; n < from.neighbours; ++n) to.along[n] = rigid.rotate(from.along[n]);
+        to.along = rigid.rotate(from.along);
+        to.after = rigid.rotate(from.after);
+        to.before = rigid.rotate(from.before);
     }
+}
+
+Vec Walls::closest_point(std::size_t element, Vec p) const {
+    if (surfaces_) return closest_on_surface(element, p);
+    const WallElement& e = elements_[element];
+    return e.kind == WallElement::Kind::segment ? closest_on_segment(e, p) : e.a;
 }
 
 WallContact Walls::contact(std::size_t element, Vec p) const {
@@ -183,10 +199,10 @@ WallContact Walls::contact(std::size_t element, Vec p) const {
         c = plane_contact(e, p);
         break;
     case WallElement::Kind::segment:
-        c = segment_contact(e, p);
+        if (is_own(e, p)) c = towards(p, closest_on_segment(e, p));
         break;
     case WallElement::Kind::vertex:
-        c = vertex_contact(e, p);
+        if (is_own(e, p)) c = towards(p, e.a);
         break;
     case WallElement::Kind::arc:
         c = arc_contact(e, p);

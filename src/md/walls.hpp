@@ -11,6 +11,7 @@
 #include "motion/prescribed.hpp"
 #include "scene/surfaces.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -27,10 +28,12 @@ struct WallElement {
     Vec a, b;          // plane: point, normal; segment: ends; vertex, disc: a; arc: a = centre
     double radius = 0; // arc, disc
     double angle_from = 0, angle_span = 0; // arc, counter-clockwise
-    // Vertex: directions of the segments that end here, pointing away from the vertex; a contact in the
-    // interior of one of them belongs to that segment.
-    Vec along[2];
-    int neighbours = 0;
+    Vec along;                             // segment: from a to b
+    // Segment, vertex: the contacts of grains whose centres lie behind the line through a across `after` and
+    // before the line through b across `before` are its own, with `open_end` all behind the first. Elements
+    // that meet at a point share these vectors, bit for bit, so that every contact is somebody's.
+    Vec after, before;
+    bool open_end = false;
     double omega = 0; // disc: own spin in addition to the motion
     int wall = 0, material = 0, motion = -1;
 };
@@ -48,6 +51,11 @@ struct WallContact {
 // R_i^2 - R_j^2 of a contact's lever arms; flat walls count as so large that the lever arm is the distance.
 [[nodiscard]] inline double flat_or_round(const WallContact& c, double radius) {
     return c.radius > 0 ? radius * radius - c.radius * c.radius : c.distance * c.distance;
+}
+
+[[nodiscard]] inline Vec closest_on_segment(const WallElement& e, Vec p) {
+    const double s = std::clamp(dot(p - e.a, e.along) / dot(e.along, e.along), 0.0, 1.0);
+    return e.a + s * e.along;
 }
 
 struct WallResult {
@@ -157,13 +165,18 @@ public:
     // 3D: contacts of a grain of radius R at p with the pieces listed for it, by wall, then distance.
     void find_contacts(Vec p, double radius, const NearWall* begin, const NearWall* end,
                        SurfaceContacts& contacts) const;
-    // 3D: point of an element, where it stands now, that is closest to p.
+    // Point of a piece of a surface or of a polyline, where it stands now, that is closest to p.
     [[nodiscard]] Vec closest_point(std::size_t element, Vec p) const;
+    // Whether a contact may pass from one to the other.
+    [[nodiscard]] bool of_one_surface(std::size_t first, std::size_t second) const {
+        return element(first).wall == element(second).wall && element(first).kind != WallElement::Kind::disc;
+    }
     // Numbers that a contact remembers.
     [[nodiscard]] int fields() const { return fields_; }
 
 private:
     void build_surfaces(const scene::Scene& scene);
+    [[nodiscard]] Vec closest_on_surface(std::size_t element, Vec p) const;
     [[nodiscard]] double domain_reach(const scene::Motion& motion) const;
     [[nodiscard]] const motion::RigidState* rigid_of(std::size_t element) const;
     [[nodiscard]] Vec in_frame(std::size_t frame, Vec p) const;

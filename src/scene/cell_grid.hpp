@@ -79,15 +79,32 @@ public:
         head = static_cast<std::int64_t>(next_.size()) - 1;
     }
 
-    // Calls body(number) for the points of the cell of p and of the cells around it, each once. Across a seam
-    // columns are not neighbours any more: whole rows are looked at.
-    template <class Body> void for_near(Vec p, const Body& body) const {
+    // Calls body(number) for the points of the cell of p and of the cells around it, each once.
+    template <class Body> void for_near(Vec p, const Body& body) const { for_cells(p, 1, 1, 1, body); }
+
+    // Calls body(number) once for every point closer than `reach` to p, and for others.
+    template <class Body> void for_within(Vec p, double reach, const Body& body) const {
+        const auto cells = [&](std::int64_t count, double length) {
+            // A reach of just the width of a cell is not to be rounded to two.
+            const double most = std::ceil((1 - 1e-12) * reach * static_cast<double>(count) / length);
+            return static_cast<std::int64_t>(std::clamp(most, 1.0, static_cast<double>(count)));
+        };
+        const Vec size = box_.size();
+        for_cells(p, cells(columns_, size.x), cells(rows_, size.y), layers_ == 1 ? 1 : cells(layers_, size.z),
+                  body);
+    }
+
+private:
+    // Up to so many cells away along each axis. Across a seam columns are not neighbours any more: whole rows
+    // are looked at.
+    template <class Body>
+    void for_cells(Vec p, std::int64_t across, std::int64_t up, std::int64_t deep, const Body& body) const {
         const std::int64_t own_row = row(p);
-        const bool beside_seam = box_.seam != 0 && (own_row == 0 || own_row == rows_ - 1);
+        const bool beside_seam = box_.seam != 0 && (own_row < up || own_row >= rows_ - up);
         const auto [left, width] =
-            beside_seam ? Span{0, columns_} : span(column(p), columns_, box_.periodic[0]);
-        const auto [bottom, height] = span(own_row, rows_, box_.periodic[1]);
-        const auto [front, depth] = span(layer(p), layers_, box_.periodic[2]);
+            beside_seam ? Span{0, columns_} : span(column(p), across, columns_, box_.periodic[0]);
+        const auto [bottom, height] = span(own_row, up, rows_, box_.periodic[1]);
+        const auto [front, depth] = span(layer(p), deep, layers_, box_.periodic[2]);
         for (std::int64_t l = front; l < front + depth; ++l)
             for (std::int64_t r = bottom; r < bottom + height; ++r)
                 for (std::int64_t c = left; c < left + width; ++c)
@@ -96,14 +113,13 @@ public:
                         body(static_cast<std::size_t>(n));
     }
 
-private:
     struct Span {
         std::int64_t first, count;
     };
-    static Span span(std::int64_t at, std::int64_t cells, bool periodic) {
-        if (periodic) return cells < 3 ? Span{0, cells} : Span{at - 1 + cells, 3};
-        const std::int64_t first = std::max<std::int64_t>(at - 1, 0);
-        return {first, std::min(at + 1, cells - 1) - first + 1};
+    static Span span(std::int64_t at, std::int64_t away, std::int64_t cells, bool periodic) {
+        if (periodic) return cells < 2 * away + 1 ? Span{0, cells} : Span{at - away + cells, 2 * away + 1};
+        const std::int64_t first = std::max<std::int64_t>(at - away, 0);
+        return {first, std::min(at + away, cells - 1) - first + 1};
     }
     [[nodiscard]] std::size_t cell(std::int64_t c, std::int64_t r, std::int64_t l) const {
         return static_cast<std::size_t>((l * rows_ + r) * columns_ + c);

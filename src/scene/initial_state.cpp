@@ -2,8 +2,8 @@
 
 #include "core/error.hpp"
 #include "core/memory.hpp"
-#include "scene/cell_grid.hpp"
 #include "scene/population.hpp"
+#include "scene/sized_grids.hpp"
 #include "scene/space.hpp"
 #include "scene/standing_walls.hpp"
 
@@ -92,15 +92,15 @@ private:
     }
 
     void check_overlaps() const {
-        CellGrid grid(box_, 2 * largest_, grains_.size());
         std::vector<std::size_t> present; // poured ones are checked when they are inserted
         for (std::size_t i = 0; i < grains_.size(); ++i)
             if (!std::isfinite(grains_[i].insert_at)) present.push_back(i);
+        SizedGrids grids(box_, present.size(), [&](std::size_t n) { return grains_[present[n]].radius; });
         double worst = legal_overlap;
         std::size_t first = 0, second = 0, count = 0;
         for (std::size_t n = 0; n < present.size(); ++n) {
             const GrainState& g = grains_[present[n]];
-            grid.for_near(g.position, [&](std::size_t m) {
+            grids.for_near(g.position, g.radius, [&](std::size_t m) {
                 const GrainState& other = grains_[present[m]];
                 const double distance = norm(box_.separation(g.position, other.position));
                 const double overlap = g.radius + other.radius - distance;
@@ -112,7 +112,7 @@ private:
                 first = present[m];
                 second = present[n];
             });
-            grid.insert(g.position);
+            grids.insert(g.position, g.radius);
         }
         if (count > 0) refuse_overlap(grains_[first], grains_[second], worst, count);
     }

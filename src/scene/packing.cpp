@@ -1,6 +1,7 @@
 #include "scene/packing.hpp"
 
 #include "core/error.hpp"
+#include "scene/sized_grids.hpp"
 
 #include <numeric>
 
@@ -15,17 +16,23 @@ double sequential_limit(std::int64_t dimension) {
 }
 constexpr std::uint64_t attempts_per_grain = 20000;
 
+// Small grains fill what the classes of larger ones leave.
+bool sequence_may_reach(const PackingTask& task) {
+    const auto classes = size_classes(task.radii.size(), [&](std::size_t i) { return task.radii[i]; });
+    std::vector<double> grains(classes.size());
+    for (const double radius : task.radii)
+        grains[class_of(classes, radius)] += grain_content(radius, task.dimension());
+    double room = content(task.size(), task.dimension());
+    for (std::size_t c = classes.size(); c-- > 0; room -= grains[c])
+        if (!(grains[c] <= sequential_limit(task.dimension()) * room)) return false;
+    return true;
+}
+
 // Relaxation aims at radii that are larger by this factor, so that it ends in finite time with no overlap.
 constexpr double clearance = 1.002;
+constexpr double skin = 0.15; // of its lists, per grain in units of the largest radius of its class
 constexpr int most_sweeps = 3000;
 constexpr double accepted_overlap = 0.01; // of the smaller radius, once the sweeps are spent
-
-double largest(const PackingTask& task) {
-    double r = 0;
-    for (const double radius : task.radii) r = std::max(r, radius);
-    for (const Ball& ball : task.fixed) r = std::max(r, ball.radius);
-    return r;
-}
 
 // Nearest point that keeps a grain of radius R inside the region.
 Vec confined(const PackingTask& task, Vec p, double radius) {
@@ -52,12 +59,14 @@ std::vector<Vec> insert_sequentially(const PackingTask& task) {
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return task.radii[a] > task.radii[b]; });
     std::vector<Ball> placed = task.fixed;
-    CellGrid grid(task.box, 2 * largest(task), placed.size() + order.size());
-    for (const Ball& ball : placed) grid.insert(ball.centre);
+    const std::size_t fixed = placed.size();
+    SizedGrids grids(task.box, fixed + order.size(),
+                     [&](std::size_t n) { return n < fixed ? task.fixed[n].radius : task.radii[n - fixed]; });
+    for (const Ball& ball : task.fixed) grids.insert(ball.centre, ball.radius);
 
     const auto free = [&](Vec p, double radius) {
         bool room = true;
-        grid.for_near(p, [&](std::size_t n) {
+        grids.for_near(p, radius, [&](std::size_t n) {
             const Vec d = task.box.separation(p, placed[n].centre);
             const double reach = radius + placed[n].radius;
             room = room && dot(d, d) >= reach * reach;
@@ -76,7 +85,7 @@ std::vector<Vec> insert_sequentially(const PackingTask& task) {
             const Vec p = task.box.wrapped(low + scaled(u, size));
             if (!free(p, radius)) continue;
             placed.push_back({p, radius});
-            grid.insert(p);
+            grids.insert(p, radius);
             centres[i] = p;
             found = true;
         }
@@ -96,8 +105,9 @@ public:
             centres_.push_back(ball.centre);
             radii_.push_back(ball.radius);
         }
-        reach_ = 2 * largest(task) * clearance;
-        skin_ = 0.15 * reach_;
+        const auto classes = size_classes(radii_.size(), [&](std::size_t i) { return radii_[i]; });
+        for (const double r : radii_)
+            skins_.push_back(skin * clearance * classes[class_of(classes, r)].largest);
     }
 
     // True once nothing overlaps.
@@ -136,15 +146,15 @@ private:
     void list_neighbours() {
         pairs_.clear();
         near_walls_.clear();
-        CellGrid grid(task_.box, reach_ + skin_, centres_.size());
-        for (std::size_t i = 0; i < centres_.size(); ++i) grid.insert(centres_[i]);
+        const auto reach = [&](std::size_t i) { return clearance * radii_[i] + skins_[i]; };
+        SizedGrids grids(task_.box, centres_.size(), reach);
+        for (std::size_t i = 0; i < centres_.size(); ++i) grids.insert(centres_[i], reach(i));
         for (std::size_t i = 0; i < movable_; ++i) {
-            grid.for_near(centres_[i], [&](std::size_t j) {
+            grids.for_near(centres_[i], reach(i), [&](std::size_t j) {
                 const bool once = j > i; // fixed ones have the largest numbers
-                if (once && distance(i, j) < clearance * (radii_[i] + radii_[j]) + skin_)
-                    pairs_.push_back({i, j});
+                if (once && distance(i, j) < reach(i) + reach(j)) pairs_.push_back({i, j});
             });
-            task_.walls.for_near(centres_[i], clearance * radii_[i] + skin_, [&](std::size_t w) {
+            task_.walls.for_near(centres_[i], reach(i), [&](std::size_t w) {
                 near_walls_.push_back({i, w});
             });
         }
@@ -153,7 +163,7 @@ private:
 
     [[nodiscard]] bool moved_too_far() const {
         for (std::size_t i = 0; i < movable_; ++i)
-            if (norm(task_.box.separation(listed_[i], centres_[i])) > 0.5 * skin_) return true;
+            if (norm(task_.box.separation(listed_[i], centres_[i])) > skins_[i]) return true;
         return false;
     }
 
@@ -192,7 +202,7 @@ private:
     std::vector<Vec> centres_, listed_;
     std::vector<double> radii_;
     std::size_t movable_;
-    double reach_ = 0, skin_ = 0;
+    std::vector<double> skins_;            // m, how far a grain may move before the lists are made anew
     std::vector<Pair> pairs_, near_walls_; // near_walls_: grain and wall piece
 };
 
@@ -217,7 +227,7 @@ double PackingTask::fraction() const {
 std::vector<Vec> pack(const PackingTask& task) {
     if (task.radii.empty()) return {};
     check_width(task);
-    if (task.fraction() <= sequential_limit(task.dimension()))
+    if (sequence_may_reach(task))
         if (std::vector<Vec> centres = insert_sequentially(task); !centres.empty()) return centres;
     // Order grows as the jitter shrinks; dense targets need some.
     double scale = 0;

@@ -18,7 +18,7 @@ using scene::NeighbourMethod;
 
 TEST(SizeClasses, AreOctavesOfTheSmallestRadius) {
     const auto classes = [](const std::vector<double>& radii) {
-        return md::size_classes(radii.size(), [&](std::size_t i) { return radii[i]; });
+        return scene::size_classes(radii.size(), [&](std::size_t i) { return radii[i]; });
     };
     EXPECT_TRUE(classes({}).empty());
     ASSERT_EQ(classes({1, 1.9}).size(), 1U); // within `wide_ratio`
@@ -30,9 +30,9 @@ TEST(SizeClasses, AreOctavesOfTheSmallestRadius) {
     EXPECT_EQ(wide[1].largest, 3.9);
     EXPECT_EQ(wide[2].largest, 127);
     EXPECT_EQ(wide[2].grains, 3U);
-    EXPECT_EQ(md::class_of(wide, 1.5), 0U);
-    EXPECT_EQ(md::class_of(wide, 2), 1U);
-    EXPECT_EQ(md::class_of(wide, 100), 2U);
+    EXPECT_EQ(scene::class_of(wide, 1.5), 0U);
+    EXPECT_EQ(scene::class_of(wide, 2), 1U);
+    EXPECT_EQ(scene::class_of(wide, 100), 2U);
 }
 
 // A few large grains among few others: one grid serves all, and several would cost more.

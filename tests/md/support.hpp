@@ -29,10 +29,10 @@ inline scene::GrainState grain(std::int64_t id, Vec position, Vec velocity, doub
     return g;
 }
 
-inline md::Simulation simulate(const scene::Scene& s, const std::vector<scene::GrainState>& grains) {
+inline md::Simulation simulate(const scene::Scene& s, const std::vector<scene::GrainState>& grains,
+                               simd::Isa isa = simd::available_isas().back()) {
     const md::Needs needs = md::analyse(s, grains);
-    return {s, grains, needs,
-            md::make_plan(s, needs, md::derive(s, needs), simd::available_isas().back(), {1, "test"})};
+    return {s, grains, needs, md::make_plan(s, needs, md::derive(s, needs), isa, {1, "test"})};
 }
 
 inline scene::Wall floor_plane() {

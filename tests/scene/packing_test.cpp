@@ -97,6 +97,37 @@ INSTANTIATE_TEST_SUITE_P(SlowFractions, Packing,
                                          Case{2, 100000, 0.82, true}, Case{3, 5000, 0.6, true}),
                          case_name);
 
+// Small grains between large ones, 1:100 in the plane and 1:20 in space, denser than equal ones placed one by
+// one come; every pair looked at.
+TEST(WidePacking, FillsGapsWithSmallGrains) {
+    for (const std::int64_t dimension : {2, 3})
+        for (const bool periodic : {true, false}) {
+            Scene scene = random_scene(dimension, 3000, 0.5, periodic);
+            const Vec size = scene.domain.upper;
+            const double side = size.x, large = dimension == 3 ? 0.16 * side : 0.2 * side;
+            Grains& g = scene.grains[0];
+            g.sizes = {SizeLaw::inverse_square, dimension == 3 ? large / 20 : large / 100, large};
+            g.count = 0;
+            g.packing_fraction = dimension == 3 ? 0.40 : 0.60;
+            const std::vector<GrainState> grains = initial_grains(scene);
+            const Box box(scene.domain);
+            double worst = 0, smallest = large, largest = 0;
+            for (std::size_t i = 0; i < grains.size(); ++i) {
+                smallest = std::min(smallest, grains[i].radius);
+                largest = std::max(largest, grains[i].radius);
+                for (std::size_t j = 0; j < i; ++j) {
+                    const double reach = grains[i].radius + grains[j].radius;
+                    const double d = norm(box.separation(grains[i].position, grains[j].position));
+                    worst = std::max(worst, (reach - d) / std::min(grains[i].radius, grains[j].radius));
+                }
+            }
+            EXPECT_GT(largest, 10 * smallest);
+            EXPECT_GT(grains.size(), 500U);
+            EXPECT_LT(grains.size(), 10000U);
+            EXPECT_LE(worst, 0.01) << dimension << periodic;
+        }
+}
+
 TEST(DensePacking, OfSpheresFillsThinSlabs) {
     for (const double height : {2.2, 4.5, 7.0}) { // one layer of spheres of diameter 1.8 to 2.2, and a few
         SCOPED_TRACE(height);

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace sandlane::md {
+namespace sandlane::scene {
 
 struct SizeClass {
     double largest = 0; // m, radius
@@ -47,4 +47,4 @@ template <class Radius> std::vector<SizeClass> size_classes(std::size_t count, c
     return c;
 }
 
-} // namespace sandlane::md
+} // namespace sandlane::scene
