@@ -23,7 +23,7 @@ stiffness, friction, tangential_damping = 1e4, 0.5, 5.0
 gravity = 0.2  # m/s^2, overlaps at the floor below 1 % of a radius
 tilt = math.radians(20)
 skin = 0.3
-settle_time = 40.0  # s
+settle_time = 30.0  # s
 error = 2e-3
 lammps_ratio = 50.37
 columns = discs.columns
@@ -42,11 +42,11 @@ def start(grains):
     import numpy
     height = max(8, round(0.25 * grains**0.5))
     number = numpy.arange(height * (grains // height))
-    width, apart = grains // height, 2.25
+    width, apart = grains // height, 2.42
     random = numpy.random.default_rng(1)
     column, row = number % width, number // width
     zero = numpy.zeros(number.size)
-    state = (apart * (column + 0.25 + 0.5 * (row % 2)), 1.3 + apart * 0.9 * row, random.normal(0, 0.1, number.size),
+    state = (apart * (column + 0.25 + 0.5 * (row % 2)), 1.3 + apart * 0.98 * row, random.normal(0, 0.1, number.size),
              random.normal(0, 0.1, number.size), zero, random.uniform(0.8, 1.2, number.size), zero + 1)
     return dict(zip(columns, state)), (apart * width, apart * height + 4)
 
@@ -222,22 +222,22 @@ def unwrapped(after, before, box):
     return moved - box[0] * numpy.round(moved / box[0])
 
 
-def balance(grains, cut, ours, theirs, windows=6):
+def balance(grains, cut, ours, theirs, windows=6, times=2):
     """Energy that each program loses within two contact times of the flow, against steps of t_c/800 from the same
     states, over what is lost: {name: [relative residual of each window]}."""
     folder, state, box = flowing(grains, cut)
-    span, found = 2 * contact_time(cut), {}
+    span, found = times * contact_time(cut), {}
     for _ in range(windows):
         write_sandlane(folder, state, box, cut)
 
         def ran(ratio, resolved):
-            steps = round(2 * ratio)
+            steps = round(times * ratio)
             dt = span / steps
             sandlane(folder, steps, dt, resolved, [f"output.trajectory_every={steps * dt!r}"])
             return discs.read_dump(folder / "out/trajectory.dump")
 
         def lammps_ran(ratio):
-            steps = round(2 * ratio)
+            steps = round(times * ratio)
             write_lammps(folder, state, box, cut, span / steps)
             with open(folder / "in.lmp", "a") as script:
                 script.write("write_dump all custom lammps.dump id x y vx vy omegaz radius mass "
@@ -259,7 +259,7 @@ def balance(grains, cut, ours, theirs, windows=6):
             found.setdefault(name, []).append((-gained(after) - lost) / lost)
         state = right
     print(f"{state['x'].size} discs, restitution 0.88 {'with the cut' if cut else 'without the cut'}: energy lost within "
-          f"two contact times, {windows} windows, against t_c/800")
+          f"{times} contact times, {windows} windows, against t_c/800")
     for name, of in found.items():
         print(f"    {name:<44} mean {statistics.mean(of):+9.1e}, rms {math.sqrt(statistics.mean(r * r for r in of)):8.1e}",
               flush=True)

@@ -159,7 +159,8 @@ SANDLANE_INLINE PairForce<R> pair_force(const PairState<R>& s, const PairCoeffic
     R f_t = Tangential::force(
         TangentialInput<R>{f_n.load, v_t, c.tangential_damping, c.friction, c.tangential_stiffness, time},
         tangential);
-    if constexpr (resolves<Normal>) f_t = f_n.share * f_t;
+    if constexpr (resolves<Normal> && Tangential::needs_spin)
+        f_t = friction_of_step(f_n, f_t, Tangential::damped ? c.tangential_damping * v_t : zero, c.friction);
     PairForce<R> f{select(touching, -(f_n.force * nx) - f_t * ny, zero),
                    select(touching, f_t * nx - f_n.force * ny, zero), select(touching, f_t, zero), overlap};
     if constexpr (has_couples) {
@@ -227,7 +228,7 @@ SANDLANE_INLINE SpatialForce<R> pair_force(const SpatialState<R>& s, const PairC
     Vector<R> f_t = Tangential::force(SpatialInput<R>{f_n.load, u_t, n, twist, c.tangential_damping,
                                                       c.friction, c.tangential_stiffness, time},
                                       tangential);
-    if constexpr (resolves<Normal>) f_t = f_n.share * f_t;
+    if constexpr (resolves<Normal>) f_t = friction_of_step(f_n, f_t, c.tangential_damping * u_t, c.friction);
     const Vector<R> turning = cross(n, f_t);
     SpatialForce<R> f{select(touching, f_t - f_n.force * n, none), select(touching, turning, none), overlap};
     if constexpr (has_couples) {

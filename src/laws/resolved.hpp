@@ -3,13 +3,37 @@
 // normal.hpp. The moments of touch and release follow from the overlap and its rate, nothing is remembered.
 #pragma once
 
+#include "core/vector.hpp"
 #include "laws/normal.hpp"
 
 namespace sandlane::laws {
 
-// force: what acts on the grains over the step [N]; load: the present one, >= 0, which friction looks at;
-// share: the load over the step in units of that. The forces that go with the load are multiplied by it.
-template <class R> struct StepForce { R force, load, share; };
+// force: what acts on the grains over the step [N]; load: the present one, >= 0; pressed: the load over the
+// step; jump, ramp: what a force that is there from the touch on, or to the release, and one that grows as
+// time does count over the step, in units of the present.
+template <class R> struct StepForce { R force, load, pressed, jump, ramp; };
+
+// s: time from the touch or to the release over the step.
+template <class R>
+SANDLANE_INLINE StepForce<R> step_force(const R& force, const R& load, const R& pressed, const R& s) {
+    const R half(0.5), one(1.0);
+    return {force, load, pressed, select(s < one, half + s, one), select(s < one, half + half * s, one)};
+}
+
+// Friction over the step from the present one, which is a damper's force and a spring's or sliding.
+template <class R>
+SANDLANE_INLINE R friction_of_step(const StepForce<R>& n, const R& force, const R& damper,
+                                   const R& friction) {
+    const R limit = friction * n.pressed;
+    return max(min(n.ramp * force + (n.ramp - n.jump) * damper, limit), -limit);
+}
+template <class R>
+SANDLANE_INLINE Vector<R> friction_of_step(const StepForce<R>& n, const Vector<R>& force,
+                                           const Vector<R>& damper, const R& friction) {
+    const Vector<R> whole = n.ramp * force + (n.ramp - n.jump) * damper;
+    // Zero over zero is no number, and min then takes its second operand.
+    return min(friction * n.pressed / sqrt(dot(whole, whole)), R(1.0)) * whole;
+}
 
 template <class Law> struct Resolved;
 template <class Law> inline constexpr bool resolves = false;
@@ -35,16 +59,14 @@ template <> struct Resolved<LinearDashpot> {
         const R zero(0.0), half(0.5), one(1.0);
         const R damper = c.dissipative * c.rate, whole = c.elastic * c.overlap + damper;
         const R swing = c.elastic * (step * max(c.rate, -c.rate)); // of the spring's force within a step
-        const R load = max(whole, zero), divisor = select(load > zero, load, one);
-        const R inverse = one / (swing * divisor), per_swing = inverse * divisor, per_load = inverse * swing;
-
-        const R begins = max(damper, zero), s = (load - begins) * per_swing;
-        const R share = select(s < one, half * (one + s * (one + begins * per_load)), one);
+        const R per_swing = one / swing;
+        const R load = max(whole, zero), begins = max(damper, zero), s = (load - begins) * per_swing;
+        const R pressed = select(s < one, half * (load + s * (load + begins)), load);
 
         const R jump = max(damper, c.least), r = (whole - jump) * per_swing;
         const R late = parting(min(jump, zero), r);
         const R part = select(r < one, half * (whole + r * (whole + jump)) - late, whole + late);
-        return {select(whole > c.least, part, max(whole, c.least)), load, share};
+        return step_force(select(whole > c.least, part, max(whole, c.least)), load, pressed, s);
     }
 
 private:
@@ -79,8 +101,8 @@ template <> struct Resolved<Viscoelastic> {
         const R end = c.elastic * stride * (root * ramp(u) + early * early * as_begun);
         const R cut_force = select(c.rate > zero, edge, select(u < one, end, whole));
         const R pressed = select(whole > zero, max(cut_force, zero), zero);
-        const R share = select(whole > zero, pressed / load, one);
-        return {select(c.least < zero, edge, pressed), load, share};
+        return step_force(select(c.least < zero, edge, pressed), load, pressed,
+                          select(c.rate > zero, s, max(u, zero)));
     }
 
 private:

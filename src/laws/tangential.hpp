@@ -28,9 +28,9 @@ template <class R> struct SpatialInput {
 // in 3D) live as long as the contact does; both partners see the same numbers in 2D and opposite ones in 3D.
 // At its first evaluation they are zero, and so is the time elapsed. Laws without memory do not look at them.
 // energy, energy_in_space: what the contact holds and can give back, J, from k_t, mu and its memory.
-// in_space: the law has a form in 3D.
+// in_space: the law has a form in 3D. damped: its force has the part -gamma_t v_t while it does not slide.
 struct Frictionless {
-    static constexpr bool needs_spin = false, needs_twist = false, in_space = true;
+    static constexpr bool needs_spin = false, needs_twist = false, damped = false, in_space = true;
     static constexpr int memory = 0, memory_in_space = 0;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>&, R*) { return R(0.0); }
     template <class R> static SANDLANE_INLINE Vector<R> force(const SpatialInput<R>&, R*) {
@@ -42,7 +42,7 @@ struct Frictionless {
 
 // f_t = -sign(v_t) min(gamma_t |v_t|, mu f_n) (2.18), written as a clamp so that v_t = 0 gives zero.
 struct HaffWerner {
-    static constexpr bool needs_spin = true, needs_twist = false, in_space = true;
+    static constexpr bool needs_spin = true, needs_twist = false, damped = true, in_space = true;
     static constexpr int memory = 0, memory_in_space = 0;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R*) {
         const R limit = c.friction * c.normal_force;
@@ -61,7 +61,7 @@ struct HaffWerner {
 // f_t = -k_t zeta - gamma_t v_t, at most mu f_n; while the contact slides zeta is what gives just that force,
 // so that it lets go at once when the motion reverses. memory: zeta [m].
 struct CundallStrack {
-    static constexpr bool needs_spin = true, needs_twist = true, in_space = true;
+    static constexpr bool needs_spin = true, needs_twist = true, damped = true, in_space = true;
     static constexpr int memory = 1, memory_in_space = 3;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R* zeta) {
         const R zero(0.0);
@@ -125,7 +125,7 @@ private:
 // (2.22)-(2.23), with the exponent 1/3. stiffness = k_0 [N/m]. memory: F, F* [N], sign of the last
 // displacement, load at the last evaluation [N]. In the plane only.
 struct WaltonBraunTangential {
-    static constexpr bool needs_spin = true, needs_twist = false, in_space = false;
+    static constexpr bool needs_spin = true, needs_twist = false, damped = false, in_space = false;
     static constexpr int memory = 4, memory_in_space = 0;
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R* m) {
         const R zero(0.0), one(1.0), limit = c.friction * c.normal_force;
