@@ -153,9 +153,10 @@ TEST_P(AccuracyAsked, CostsNoMoreThanTheCheapestThatMeetsIt) {
     for (const md::Candidate& c : choice.all) {
         scene::Scene with = s;
         with.md.integrator = c.integrator;
+        with.md.contact_onset = c.onset;
         double good = 0;
         for (double dt = 0.25 * md::derive(with, needs).critical_dt; dt > 0.5 * good; dt *= 0.97)
-            if (!(md::scene_error(s, needs, c.integrator, dt, s.md.accuracy) <= s.md.accuracy))
+            if (!(md::scene_error(s, needs, c.integrator, c.onset, dt, s.md.accuracy) <= s.md.accuracy))
                 good = 0;
             else if (good == 0)
                 good = dt;
