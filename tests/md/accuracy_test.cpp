@@ -189,8 +189,24 @@ TEST(Accuracy, GivesTheStepThatTheWorstContactNeeds) {
     EXPECT_LT(md::choose_by_accuracy(s, md::analyse(s, alike)).best.dt, 0.2 * alone);
 }
 
+// What a scene says of the onset of contacts, and what it has, limit the choice.
+TEST(Accuracy, TakesResolvedContactsWhereItMay) {
+    using scene::ContactOnset;
+    scene::Scene s = asked_scene({"", NormalLaw::linear_dashpot, 5.66, true, 1e-4});
+    const auto best = [&] { return md::choose_by_accuracy(s, md::analyse(s, meeting(1e-3))).best; };
+    const md::Candidate free = best();
+    EXPECT_EQ(free.onset, ContactOnset::resolved);
+    s.md.contact_onset = ContactOnset::step;
+    EXPECT_EQ(best().onset, ContactOnset::step);
+    EXPECT_GT(best().cost, 10 * free.cost); // first order against second
+    s.md.contact_onset = ContactOnset::automatic;
+    s.md.neighbours = scene::NeighbourMethod::link_cells; // has no such kernels
+    EXPECT_EQ(best().onset, ContactOnset::step);
+}
+
 TEST(Accuracy, NeedsContactsAndStepsThatCanBeTaken) {
-    const scene::Scene s = asked_scene({"", NormalLaw::linear_dashpot, 5.66, true, 1e-8});
+    scene::Scene s = asked_scene({"", NormalLaw::linear_dashpot, 5.66, true, 1e-8});
+    s.md.contact_onset = scene::ContactOnset::step; // of first order
     const auto refusal = [](const scene::Scene& scene, const std::vector<scene::GrainState>& grains) {
         try {
             (void)md::choose_by_accuracy(scene, md::analyse(scene, grains));
