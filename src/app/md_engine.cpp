@@ -184,10 +184,10 @@ private:
         std::string all;
         for (const md::Candidate& c : choice.all)
             all += fmt::format(R"({}"{}": {{"step_ns": {}, "longest_dt": {}}})", all.empty() ? "" : ", ",
-                               md::integrator_name(c.integrator), c.step_cost, json_number(c.longest));
+                               md::name_of(c), c.step_cost, json_number(c.longest));
         if (all.empty()) return "null";
         return fmt::format(R"({{"integrator": "{}", "error": {}, "cost_ns": {}, "candidates": {{{}}}}})",
-                           md::integrator_name(choice.best.integrator), json_number(choice.best.error),
+                           md::name_of(choice.best), json_number(choice.best.error),
                            json_number(choice.best.cost), all);
     }
 

@@ -12,22 +12,25 @@
 
 namespace sandlane::md {
 
+using scene::ContactOnset;
 using scene::Integrator;
 using scene::Scene;
 
 namespace {
 
 // ns per particle-step, linear dashpot with friction and viscoelastic: `tools/bench accuracy`, "Cost of a
-// step". Only ratios count. The cheapest come first: what cannot be cheaper than they are need not be tried.
+// step". Only ratios count. Those that mostly win come first: what cannot be cheaper need not be tried.
 struct Row {
     Integrator integrator;
+    ContactOnset onset;
     double linear, hertz;
 };
 constexpr Row rows[] = {
-    {Integrator::velocity_verlet, 5.2, 5.7},
-    {Integrator::gear4, 5.6, 6.1},
-    {Integrator::gear5, 6.1, 6.1},
-    {Integrator::gear6, 8.3, 8.3},
+    {Integrator::velocity_verlet, ContactOnset::resolved, 5.7, 6.3},
+    {Integrator::velocity_verlet, ContactOnset::step, 5.2, 5.7},
+    {Integrator::gear4, ContactOnset::step, 5.6, 6.1},
+    {Integrator::gear5, ContactOnset::step, 6.1, 6.1},
+    {Integrator::gear6, ContactOnset::step, 8.3, 8.3},
 };
 
 constexpr double shortest_step = 1.0 / 30000; // of the shortest contact
@@ -67,12 +70,17 @@ public:
     double error(Stepping stepping, double dt, double enough) {
         double worst = 0;
         for (std::size_t n = 0; n < cases_.size(); ++n) {
-            const double error = largest(cases_[n], stepping, dt);
+            const double error = largest(cases_[n], stepping, dt, enough);
             if (error > worst && n > 0) std::swap(cases_[0], cases_[n]);
             worst = std::max(worst, error);
             if (!(worst <= enough)) return worst;
         }
         return worst;
+    }
+
+    // Of the case that was the worst at the last look.
+    [[nodiscard]] double error_of_worst(Stepping stepping, double dt) const {
+        return largest(cases_[0], stepping, dt, std::numeric_limits<double>::infinity());
     }
 
 private:
@@ -82,13 +90,15 @@ private:
         cases_.push_back({impact, exact});
     }
 
-    // Over a quarter, half and three quarters of a step more per contact.
-    [[nodiscard]] double largest(const Case& c, Stepping stepping, double dt) const {
+    // Also with a quarter, half and three quarters of a step more in the contact.
+    [[nodiscard]] double largest(const Case& c, Stepping stepping, double dt, double enough) const {
         const double steps = c.impact.time / dt;
         double worst = 0;
-        for (const double more : {0.0, 0.25, 0.5, 0.75})
-            worst = std::max(
-                worst, collision_error(normal_, stepping, c.impact, c.exact, dt * steps / (steps + more)));
+        for (const double more : {0.0, 0.25, 0.5, 0.75}) {
+            const double part = dt * steps / (steps + more);
+            worst = std::max(worst, collision_error(normal_, stepping, c.impact, c.exact, part, enough));
+            if (!(worst <= enough)) break;
+        }
         return worst;
     }
 
@@ -97,10 +107,22 @@ private:
     double shortest_ = std::numeric_limits<double>::infinity();
 };
 
-Stepping stepping_of(const Scene& scene, Integrator integrator) {
-    scene::Md md = scene.md;
-    md.integrator = integrator;
-    return {scheme_of(md), md.contact_onset == scene::ContactOnset::resolved};
+Scene stepped_by(const Scene& scene, Integrator integrator, ContactOnset onset) {
+    Scene with = scene;
+    with.md.integrator = integrator;
+    with.md.contact_onset = onset;
+    return with;
+}
+
+Stepping stepping_of(const Scene& scene, Integrator integrator, ContactOnset onset) {
+    return {scheme_of(stepped_by(scene, integrator, onset).md), onset == ContactOnset::resolved};
+}
+
+// Those that the scene allows.
+bool is_allowed(const Scene& scene, const Needs& needs, const Row& row) {
+    const ContactOnset wanted = scene.md.contact_onset;
+    if (wanted != ContactOnset::automatic) return row.onset == wanted;
+    return row.onset == ContactOnset::step || why_not_resolved(scene, needs).empty();
 }
 
 double cost_of(const Scene& scene, const Row& row) {
@@ -110,9 +132,9 @@ double cost_of(const Scene& scene, const Row& row) {
 }
 
 // Steps that dense packings and the guards of a run bear (docs/physics.md 8).
-double longest_step(Scene scene, const Needs& needs, Integrator integrator) {
-    scene.md.integrator = integrator;
-    return std::min(0.25 * derive(scene, needs).critical_dt, 0.05 * needs.radius_min / scene.md.max_speed);
+double longest_step(const Scene& scene, const Needs& needs, const Row& row) {
+    const double critical = derive(stepped_by(scene, row.integrator, row.onset), needs).critical_dt;
+    return std::min(0.25 * critical, 0.05 * needs.radius_min / scene.md.max_speed);
 }
 
 // Three digits, not more than x: no library's rounding is seen in it.
@@ -124,9 +146,9 @@ double rounded_down(double x) {
 // The longest step that meets the target, as two shorter ones of the scan do; up to a hundredth.
 Candidate search(const Scene& scene, const Needs& needs, Cases& cases, const Row& row, double most_cost) {
     const double target = scene.md.accuracy, cost = cost_of(scene, row);
-    const Stepping stepping = stepping_of(scene, row.integrator);
+    const Stepping stepping = stepping_of(scene, row.integrator, row.onset);
     const auto meets = [&](double dt) { return cases.error(stepping, dt, target) <= target; };
-    const double longest = longest_step(scene, needs, row.integrator);
+    const double longest = longest_step(scene, needs, row);
     const double least = std::max(shortest_step * cases.shortest(), cost * cases.shortest() / most_cost);
     double good = 0, bad = 0;
     int in_a_row = 0;
@@ -138,7 +160,7 @@ Candidate search(const Scene& scene, const Needs& needs, Cases& cases, const Row
             good = dt;
         }
     }
-    Candidate found{row.integrator, 0, 0, 0, cost, longest};
+    Candidate found{row.integrator, row.onset, 0, 0, 0, cost, longest};
     if (in_a_row == 0) return found;
     while (bad > 1.01 * good) {
         const double middle = std::sqrt(good * bad);
@@ -154,10 +176,9 @@ Candidate search(const Scene& scene, const Needs& needs, Cases& cases, const Row
 [[noreturn]] void fail_unreachable(const Scene& scene, const Needs& needs, Cases& cases) {
     double reached = std::numeric_limits<double>::infinity();
     for (const Row& row : rows) {
-        const double dt =
-            std::min(longest_step(scene, needs, row.integrator), shortest_step * cases.shortest());
-        reached = std::min(reached, cases.error(stepping_of(scene, row.integrator), dt,
-                                                std::numeric_limits<double>::infinity()));
+        if (!is_allowed(scene, needs, row)) continue;
+        const double dt = std::min(longest_step(scene, needs, row), shortest_step * cases.shortest());
+        reached = std::min(reached, cases.error_of_worst(stepping_of(scene, row.integrator, row.onset), dt));
     }
     fail(Exit::invalid_input,
          "md.accuracy = {}: no integrator meets it with up to {:.0f} steps in a contact; the best error with "
@@ -168,22 +189,27 @@ Candidate search(const Scene& scene, const Needs& needs, Cases& cases, const Row
 void explain(const Scene& scene, AccuracyChoice& choice) {
     const auto text = [&](const Candidate& c) {
         return fmt::format("{}, dt = {:.3g} s = t_c/{:.4g}, error {:.2g}, {:.3g} ns per grain and t_c",
-                           integrator_name(c.integrator), c.dt, choice.contact_time / c.dt, c.error, c.cost);
+                           name_of(c), c.dt, choice.contact_time / c.dt, c.error, c.cost);
     };
     choice.reasons.push_back(
         fmt::format("accuracy: {} asked for; cheapest: {}", scene.md.accuracy, text(choice.best)));
     for (const Candidate& c : choice.all)
-        if (c.integrator != choice.best.integrator)
-            choice.reasons.push_back(
-                "accuracy: not " +
-                (c.dt > 0 ? text(c) : std::string(integrator_name(c.integrator)) + ", it would cost more"));
+        if (name_of(c) != name_of(choice.best))
+            choice.reasons.push_back("accuracy: not " +
+                                     (c.dt > 0 ? text(c) : name_of(c) + ", it would cost more"));
     choice.reasons.emplace_back("accuracy: double precision, the only one of this engine");
 }
 
 } // namespace
 
-double scene_error(const Scene& scene, const Needs& needs, Integrator integrator, double dt, double enough) {
-    return Cases(scene, needs).error(stepping_of(scene, integrator), dt, enough);
+std::string name_of(const Candidate& c) {
+    const char* onset = c.onset == ContactOnset::resolved ? ", resolved" : "";
+    return fmt::format("{}{}", integrator_name(c.integrator), onset);
+}
+
+double scene_error(const Scene& scene, const Needs& needs, Integrator integrator, ContactOnset onset,
+                   double dt, double enough) {
+    return Cases(scene, needs).error(stepping_of(scene, integrator, onset), dt, enough);
 }
 
 AccuracyChoice choose_by_accuracy(const Scene& scene, const Needs& needs) {
@@ -199,6 +225,7 @@ AccuracyChoice choose_by_accuracy(const Scene& scene, const Needs& needs) {
     choice.contact_time = cases.shortest();
     choice.best.cost = std::numeric_limits<double>::infinity();
     for (const Row& row : rows) {
+        if (!is_allowed(scene, needs, row)) continue;
         choice.all.push_back(search(scene, needs, cases, row, choice.best.cost));
         const Candidate& found = choice.all.back();
         if (found.dt > 0 && found.cost < choice.best.cost) choice.best = found;
@@ -209,8 +236,7 @@ AccuracyChoice choose_by_accuracy(const Scene& scene, const Needs& needs) {
 }
 
 Scene with_choice(const Scene& scene, const AccuracyChoice& choice) {
-    Scene chosen = scene;
-    chosen.md.integrator = choice.best.integrator;
+    Scene chosen = stepped_by(scene, choice.best.integrator, choice.best.onset);
     chosen.md.dt = choice.best.dt;
     return chosen;
 }

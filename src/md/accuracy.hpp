@@ -12,6 +12,7 @@ namespace sandlane::md {
 // One way of integrating, and what it needs for the error asked for.
 struct Candidate {
     scene::Integrator integrator = scene::Integrator::automatic;
+    scene::ContactOnset onset = scene::ContactOnset::step;
     double dt = 0;                     // s; 0: none meets it, or it would cost more than another one
     double error = 0;                  // of a collision at dt, the largest over all kinds of contacts
     double cost = 0;                   // ns for a particle to live through the shortest contact
@@ -36,5 +37,7 @@ struct AccuracyChoice {
 // Error of a collision of the scene at a step of this length and a little less: whole numbers of steps per
 // contact, where errors of begin and end cancel, do not count. It stops early where `enough` is exceeded.
 [[nodiscard]] double scene_error(const scene::Scene& scene, const Needs& needs, scene::Integrator integrator,
-                                 double dt, double enough);
+                                 scene::ContactOnset onset, double dt, double enough);
+// "velocity-verlet, resolved"
+[[nodiscard]] std::string name_of(const Candidate& candidate);
 } // namespace sandlane::md

@@ -73,8 +73,9 @@ template <class Law> double exact(const Impact& k) {
         const Motion whole = runge_kutta<Law>(k, y, h, memory);
         const Motion half = runge_kutta<Law>(k, y, 0.5 * h, memory);
         const Motion fine = runge_kutta<Law>(k, half, 0.5 * h, memory);
-        const double error = std::max(std::abs(fine.overlap - whole.overlap) / (k.speed * time),
-                                      std::abs(fine.rate - whole.rate) / k.speed);
+        const double error =
+            std::max(std::abs(fine.overlap - whole.overlap) / std::max(k.speed * time, y.overlap),
+                     std::abs(fine.rate - whole.rate) / std::max(k.speed, std::abs(y.rate)));
         const bool ends = !(fine.overlap > 0), shortest = h < 1e-12 * time;
         // A law that remembers must see the largest overlap.
         const bool turns = Law::memory > 0 && y.rate > 0 && fine.rate < 0 && h > 1e-7 * time;
@@ -130,9 +131,10 @@ double collision_error(double restitution, double exact) {
     return exact > 0 ? std::max(std::abs(restitution - exact) / exact, energy) : energy;
 }
 
-double collision_error(int normal, Stepping stepping, const Impact& impact, double exact, double dt) {
+double collision_error(int normal, Stepping stepping, const Impact& impact, double exact, double dt,
+                       double enough) {
     double sum = 0;
-    for (int n = 0; n < phases; ++n) {
+    for (int n = 0; n < phases && !(std::sqrt(sum / phases) > enough); ++n) {
         const double gap = (n + 0.5) / phases * dt * impact.speed;
         const double error = collision_error(stepped_restitution(normal, stepping, impact, dt, gap), exact);
         sum += error * error;

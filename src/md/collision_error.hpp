@@ -4,6 +4,8 @@
 
 #include "laws/contact.hpp"
 
+#include <limits>
+
 namespace sandlane::md {
 
 // Two grains that meet head on; mass and radius are the reduced ones.
@@ -36,9 +38,10 @@ struct Stepping {
 // Error of a restitution coefficient: the larger one of its relative error and of that of the energy after
 // the collision over the energy before.
 [[nodiscard]] double collision_error(double restitution, double exact);
-// Root mean square of it over `phases` collisions that begin evenly spread within a step.
+// Root mean square of it over `phases` collisions that begin evenly spread within a step. Where it is above
+// `enough`, some value above that, sooner.
 inline constexpr int phases = 16;
 [[nodiscard]] double collision_error(int normal, Stepping stepping, const Impact& impact, double exact,
-                                     double dt);
+                                     double dt, double enough = std::numeric_limits<double>::infinity());
 
 } // namespace sandlane::md

@@ -37,8 +37,8 @@ bool on_lattice(const Plan& plan) {
 std::string resolved_error(const scene::Scene& scene, const Needs& needs, const Plan& plan) {
     const std::size_t grains = needs.grains + needs.poured;
     if (scene.md.accuracy > 0 || grains == 0 || (grains == 1 && !needs.walls)) return {};
-    const double error =
-        scene_error(scene, needs, scene.md.integrator, plan.dt, std::numeric_limits<double>::infinity());
+    const double error = scene_error(scene, needs, scene.md.integrator, scene.md.contact_onset, plan.dt,
+                                     std::numeric_limits<double>::infinity());
     return fmt::format("; error of a collision at md.max_speed or a tenth of it: up to {:.2g}", error);
 }
 

@@ -38,6 +38,22 @@ const char* integrator_name(scene::Integrator integrator) {
     return names[static_cast<int>(integrator)];
 }
 
+std::string why_not_resolved(const Scene& scene, const Needs& needs) {
+    const int normal = static_cast<int>(scene.md.normal);
+    const bool law =
+        with_normal_law(normal, []<class Normal>(Type<Normal>) { return laws::can_resolve<Normal>; });
+    if (!law)
+        return fmt::format("not for md.normal = \"{}\" (allowed: linear-dashpot, viscoelastic); use \"step\"",
+                           scene::normal_choices()[static_cast<std::size_t>(normal)]);
+    if (needs.couples != laws::Couples::none)
+        return "not with rolling friction or md.lever_arm = \"plane\"; use \"step\", or leave those out";
+    const NeighbourMethod wanted = scene.md.neighbours;
+    if (wanted != NeighbourMethod::automatic && wanted != NeighbourMethod::verlet)
+        return fmt::format("needs md.neighbours = \"auto\" or \"verlet\" (here \"{}\")",
+                           scene::neighbour_choices()[static_cast<std::size_t>(wanted)]);
+    return {};
+}
+
 double lattice_ratio_bound(int reach, double delta) {
     return reach * (2 - delta) / (2 * std::numbers::sqrt2);
 }
@@ -135,24 +151,9 @@ void note_skipped(const Scene& scene, const Needs& needs, Plan& plan) {
     skip(plan.dimension == 2, "third dimension");
 }
 
-// Which scenes have kernels that resolve begin and end of contacts.
-void check_resolved(const Scene& scene, const Plan& plan) {
-    const bool law =
-        with_normal_law(plan.normal, []<class Normal>(Type<Normal>) { return laws::can_resolve<Normal>; });
-    if (!law)
-        fail(Exit::invalid_input,
-             "md.contact_onset = \"resolved\": not for md.normal = \"{}\" (allowed: linear-dashpot, "
-             "viscoelastic); use \"step\"",
-             scene::normal_choices()[static_cast<std::size_t>(plan.normal)]);
-    if (plan.couples != laws::Couples::none)
-        fail(Exit::invalid_input,
-             "md.contact_onset = \"resolved\": not with rolling friction or md.lever_arm = \"plane\"; use "
-             "\"step\", or leave those out");
-    const NeighbourMethod wanted = scene.md.neighbours;
-    if (wanted != NeighbourMethod::automatic && wanted != NeighbourMethod::verlet)
-        fail(Exit::invalid_input,
-             "md.contact_onset = \"resolved\" needs md.neighbours = \"auto\" or \"verlet\" (here \"{}\")",
-             scene::neighbour_choices()[static_cast<std::size_t>(wanted)]);
+void check_resolved(const Scene& scene, const Needs& needs) {
+    if (const std::string why = why_not_resolved(scene, needs); !why.empty())
+        fail(Exit::invalid_input, "md.contact_onset = \"resolved\": {}", why);
 }
 
 void check_time_step(const Scene& scene, const Derived& derived, double dt) {
@@ -202,7 +203,7 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     plan.tangential = static_cast<int>(as_asked ? scene.md.tangential : without);
     plan.orientation = scene.md.orientation && turns;
     set_memory(plan);
-    if (plan.resolved) check_resolved(scene, plan);
+    if (plan.resolved) check_resolved(scene, needs);
     plan.many_materials = needs.many_materials;
     plan.many_radii = needs.many_radii;
     plan.walls = needs.walls;

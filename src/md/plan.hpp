@@ -86,6 +86,9 @@ struct Plan {
 // As in a scene; the one that runs, for "auto" without md.accuracy.
 [[nodiscard]] const char* integrator_name(scene::Integrator integrator);
 
+// Why a scene has no kernels that resolve begin and end of contacts, and what to do; empty: it has.
+[[nodiscard]] std::string why_not_resolved(const scene::Scene& scene, const Needs& needs);
+
 // Laws whose contacts hold a spring.
 [[nodiscard]] constexpr bool has_spring(scene::TangentialLaw law) {
     return law == scene::TangentialLaw::cundall_strack || law == scene::TangentialLaw::walton_braun;

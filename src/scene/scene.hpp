@@ -47,7 +47,7 @@ enum class TangentialLaw {
 #include "laws/laws.def"
 };
 enum class Integrator { automatic, gear4, gear5, gear6, velocity_verlet };
-enum class ContactOnset { step, resolved }; // begin and end of a contact: at a step, or inside it
+enum class ContactOnset { automatic, step, resolved }; // begin and end of a contact: at a step, or inside it
 enum class NeighbourMethod { automatic, brute_force, link_cells, lattice, lattice_half, verlet };
 enum class Inertia { disc, sphere }; // J = m R^2/2 or 2/5 m R^2 (docs/physics.md 1)
 enum class Body { sphere, disc };    // mass of a grain: 4/3 pi R^3 rho, or pi R^2 rho (per metre of depth)
@@ -194,8 +194,8 @@ struct Motion {
 struct Md {
     NormalLaw normal = NormalLaw::viscoelastic;
     TangentialLaw tangential = TangentialLaw::haff_werner;
-    Integrator integrator = Integrator::automatic; // gear5, or what accuracy asks for
-    ContactOnset contact_onset = ContactOnset::step;
+    Integrator integrator = Integrator::automatic;        // gear5, or what accuracy asks for
+    ContactOnset contact_onset = ContactOnset::automatic; // step, or what accuracy asks for
     NeighbourMethod neighbours = NeighbourMethod::automatic;
     double dt = 0;       // 0: t_c/50 at max_speed, or what accuracy asks for
     double accuracy = 0; // largest error of a collision; 0: not asked for

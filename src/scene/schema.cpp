@@ -209,7 +209,7 @@ const Table<Md>& md_table() {
             .choice("integrator", &Md::integrator, {"auto", "gear4", "gear5", "gear6", "velocity-verlet"},
                     "Gear predictor-corrector with 4, 5 or 6 values, or velocity Verlet; \"auto\": gear5, or "
                     "chosen by accuracy")
-            .choice("contact_onset", &Md::contact_onset, {"step", "resolved"},
+            .choice("contact_onset", &Md::contact_onset, {"auto", "step", "resolved"},
                     "contacts begin and end at a step, or at their moments inside it, to second order: for "
                     "linear-dashpot and viscoelastic, best with velocity-verlet")
             .choice("neighbours", &Md::neighbours, neighbour_choices(), "pair finding")

@@ -153,9 +153,10 @@ TEST_P(AccuracyAsked, CostsNoMoreThanTheCheapestThatMeetsIt) {
     for (const md::Candidate& c : choice.all) {
         scene::Scene with = s;
         with.md.integrator = c.integrator;
+        with.md.contact_onset = c.onset;
         double good = 0;
         for (double dt = 0.25 * md::derive(with, needs).critical_dt; dt > 0.5 * good; dt *= 0.97)
-            if (!(md::scene_error(s, needs, c.integrator, dt, s.md.accuracy) <= s.md.accuracy))
+            if (!(md::scene_error(s, needs, c.integrator, c.onset, dt, s.md.accuracy) <= s.md.accuracy))
                 good = 0;
             else if (good == 0)
                 good = dt;
@@ -188,8 +189,24 @@ TEST(Accuracy, GivesTheStepThatTheWorstContactNeeds) {
     EXPECT_LT(md::choose_by_accuracy(s, md::analyse(s, alike)).best.dt, 0.2 * alone);
 }
 
+// What a scene says of the onset of contacts, and what it has, limit the choice.
+TEST(Accuracy, TakesResolvedContactsWhereItMay) {
+    using scene::ContactOnset;
+    scene::Scene s = asked_scene({"", NormalLaw::linear_dashpot, 5.66, true, 1e-4});
+    const auto best = [&] { return md::choose_by_accuracy(s, md::analyse(s, meeting(1e-3))).best; };
+    const md::Candidate free = best();
+    EXPECT_EQ(free.onset, ContactOnset::resolved);
+    s.md.contact_onset = ContactOnset::step;
+    EXPECT_EQ(best().onset, ContactOnset::step);
+    EXPECT_GT(best().cost, 10 * free.cost); // first order against second
+    s.md.contact_onset = ContactOnset::automatic;
+    s.md.neighbours = scene::NeighbourMethod::link_cells; // has no such kernels
+    EXPECT_EQ(best().onset, ContactOnset::step);
+}
+
 TEST(Accuracy, NeedsContactsAndStepsThatCanBeTaken) {
-    const scene::Scene s = asked_scene({"", NormalLaw::linear_dashpot, 5.66, true, 1e-8});
+    scene::Scene s = asked_scene({"", NormalLaw::linear_dashpot, 5.66, true, 1e-8});
+    s.md.contact_onset = scene::ContactOnset::step; // of first order
     const auto refusal = [](const scene::Scene& scene, const std::vector<scene::GrainState>& grains) {
         try {
             (void)md::choose_by_accuracy(scene, md::analyse(scene, grains));
