@@ -26,6 +26,11 @@ template <class Body> void guarded(std::exception_ptr& caught, const Body& body)
     }
 }
 
+void rethrow(const std::vector<std::exception_ptr>& caught) {
+    for (const std::exception_ptr& e : caught)
+        if (e) std::rethrow_exception(e);
+}
+
 } // namespace
 
 // While the first goes on, as many others as there are threads follow it as far as it has come; then all come
@@ -57,12 +62,11 @@ std::int64_t Ensemble::run(std::int64_t events, double until) {
         });
         if (n == 0) there = true;
     });
+    rethrow(caught);
     for_tiles_dynamic(runs_.size() - 1, threads_, [&](std::size_t n) {
-        if (!caught[n + 1])
-            guarded(caught[n + 1], [&] { (void)runs_[n + 1]->run(all_events, first().time()); });
+        guarded(caught[n + 1], [&] { (void)runs_[n + 1]->run(all_events, first().time()); });
     });
-    for (const std::exception_ptr& e : caught)
-        if (e) std::rethrow_exception(e);
+    rethrow(caught);
     return done;
 }
 

@@ -48,11 +48,9 @@ TEST(EdmdEnsemble, SameForAnyThreads) {
 
 // What ends one of them ends all.
 TEST(EdmdEnsemble, ErrorsOfAnyReplica) {
-    edmd::Setup s;
-    s.upper[0] = s.upper[1] = s.upper[2] = 12;
-    s.restitution.eps = 0.5;
-    edmd::Ensemble cold = replicas(s, 20, 3, 2);
-    EXPECT_THROW(cold.run(1 << 30), Error);
+    const edmd::Setup s = test::hard_gas(2, 0.3, 0.1, 100); // collapses
+    edmd::Ensemble gas = replicas(s, 100, 3, 2);
+    EXPECT_THROW(gas.run(1 << 30), Error);
 }
 
 TEST(EdmdEnsemble, MeanAndError) {
