@@ -64,6 +64,64 @@ TEST(EdmdWalls, Piston) {
     }
 }
 
+// It goes on while a disc is away: up to the wall at the far end and back.
+TEST(EdmdWalls, PistonMeetsWhoComesBack) {
+    edmd::Setup s = vessel(2, 100, {});
+    s.curved.clear();
+    s.side[1][0].speed = 0.5;
+    s.lower[1] = -0.5;
+    const double end = s.upper[1] - 0.5, far = 2 + (end - 1) / 2; // thrown back with 2 at t = 2, y = 1
+    edmd::Simulation run(s, {at({0, 3, 0}, {0, -1, 0})}, widest(), 1);
+    ASSERT_EQ(run.run(3), 3);
+    EXPECT_NEAR(run.time(), (end + 2 * far) / 2.5, 1e-12); // end - 2 (t - far) = t/2
+    EXPECT_NEAR(run.particles()[0].velocity[1], 3, 1e-14);
+}
+
+// A disc that rolls along a rough wall has no slip there, whatever the restitution does with slip.
+TEST(EdmdWalls, RollingDiscsDoNotSlip) {
+    edmd::Setup s = vessel(2, 100, {});
+    s.curved.clear();
+    s.rough = true;
+    s.side[1][0].eps_t = -0.5;
+    edmd::Particle disc = at({0, 0, 0}, {0.3, -1, 0});
+    disc.spin = {0, 0, -0.6}; // R 0.5
+    edmd::Simulation run(s, {disc}, widest(), 1);
+    ASSERT_EQ(run.run(1), 1);
+    EXPECT_NEAR(run.particles()[0].velocity[0], 0.3, 1e-15);
+    EXPECT_NEAR(run.particles()[0].velocity[1], 1, 1e-15);
+    EXPECT_NEAR(run.particles()[0].spin[2], -0.6, 1e-15);
+}
+
+// With the same random numbers a disc four times as heavy leaves a hot wall half as fast.
+TEST(EdmdWalls, HotWallsGiveHeavyDiscsTheSameEnergy) {
+    edmd::Setup s = vessel(2, 100, {});
+    s.curved.clear();
+    s.side[1][0].kind = edmd::Side::Kind::heated;
+    s.side[1][0].temperature = 3;
+    const auto leaves = [&](double mass) {
+        s.classes[0].mass = mass;
+        edmd::Simulation run(s, {at({0, 0, 0}, {0, -1, 0})}, widest(), 1);
+        EXPECT_EQ(run.run(1), 1);
+        return run.particles()[0].velocity;
+    };
+    const auto light = leaves(1), heavy = leaves(4);
+    EXPECT_GT(light[1], 0);
+    for (std::size_t d = 0; d < 2; ++d) EXPECT_NEAR(2 * heavy[d], light[d], 1e-15) << d;
+}
+
+// What a slow impact would have lost is booked as kept: m_eff (1 - eps^2) g^2/2.
+TEST(EdmdEvents, WhatSlowImpactsKeep) {
+    edmd::Setup s = vessel(2, 100, {});
+    s.curved.clear();
+    s.restitution.eps = 0.6;
+    s.elastic_speed = 10;
+    edmd::Particle other = at({3, 0, 0}, {-1, 0, 0});
+    other.id = 1;
+    edmd::Simulation run(s, {at({0, 0, 0}, {1, 0, 0}), other}, widest(), 1);
+    ASSERT_EQ(run.run(1), 1);
+    EXPECT_NEAR(run.tally().kept, 0.5 * 0.5 * (1 - 0.36) * 4, 1e-14);
+}
+
 // A slow piston compresses an elastic gas as T V^(2/d) = const, V of a thin gas.
 TEST(EdmdWalls, SlowPistonCompressesAdiabatically) {
     edmd::Setup s = test::hard_gas(2, 0.01, 1, 400);
