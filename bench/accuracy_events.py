@@ -5,7 +5,6 @@ import math
 import statistics
 import subprocess
 
-import accuracy
 import accuracy_tables as common
 import measure
 import tables
