@@ -1,6 +1,5 @@
 """Force-based dynamics beside accuracy.py: springs between surfaces, grains that start to roll, a small system; and LAMMPS
 in the cases with walls and many contacts."""
-import csv
 import functools
 import math
 import pathlib
@@ -67,42 +66,44 @@ def answer(case):
 # Rolling
 
 def roll(folder, program, case, ratio, until, velocity=None, space=False):
-    """Ends of grains that slide or roll on a plane: velocities and spins, and what is right for each."""
+    """Grains that slide or roll on a plane: velocities, spins that count as the velocity of a surface against them, what is
+    right for both, velocities at the start."""
     time = cases.laws["linear e=0.88"].answer[1] * math.sqrt(cases.mass / cases.effective_mass)
     dt = time / ratio
-    phase = (numpy.arange(runs.phases) + 0.5) / runs.phases
-    start = case.velocity + case.friction * (1 + 1 / case.inertia) * dt * phase if velocity is None else (
-        velocity * (1 + 0.1 * phase))
     steps = round(until / dt)
-    zero, one = numpy.zeros(runs.phases), numpy.ones(runs.phases)
-    sunk = 1 - 1 / cases.stiffness  # at rest under the weight
-    spin = case.omega * start  # the surface at the plane moves with v + omega R
-    row = 4 * numpy.arange(runs.phases) + 2
+    phase = (numpy.arange(runs.phases) + 0.5) / runs.phases
+    # Sliding ends at another moment of a step for each.
+    start = (case.velocity + case.friction * (1 + 1 / case.inertia) * dt * phase if velocity is None else
+             velocity * (1 + 0.1 * phase))
+    end = rolling_run(folder, program, case, steps, dt, start, space)
+    rolled = end["omegay"] if space else -end["omegaz"]
+    return end["vx"], rolled, numpy.array([case.after(v, steps * dt) for v in start]), start
+
+
+def rolling_run(folder, program, case, steps, dt, start, space):
     law = cases.Law(False, 0.88, friction=case.friction, tangential_damping=case.tangential_damping)
-    damping = law.damping * math.sqrt(cases.mass / cases.effective_mass)
-    text = runs.materials(law, damping)
-    text = text.replace('inertia = "disc"', 'inertia = "sphere"' if case.inertia == 0.4 else 'inertia = "disc"')
+    text = runs.materials(law, law.damping * math.sqrt(cases.mass / cases.effective_mass))
+    if space:
+        text = text.replace('inertia = "disc"\n', "")
     if case.rolling_friction:
         text = text.replace("[[grains]]", f"rolling_friction = {case.rolling_friction}\n"
                                           f"rolling_damping = {case.rolling_damping}\n\n[[grains]]")
-    runs.clear(folder)
+    zero, one = numpy.zeros(runs.phases), numpy.ones(runs.phases)
+    sunk = one - 1 / cases.stiffness  # at rest under the weight
+    spin = case.omega * start  # the surface at the plane moves with v + omega R
+    way = 4 + 2 * steps * dt * float(start.max())
+    number = numpy.arange(runs.phases)
+    table = {"x": zero if space else way * number, "vx": start, "radius": one, "mass": one}
     if space:
-        scene = (f"[domain]\ndimension = 3\nlower = [-10, 0, -1]\nupper = [{10 + 2 * until * float(start.max())}, {4 * runs.phases}, 4]\n"
-                 "gravity = [0, 0, -1]\n" + text.replace('inertia = "sphere"\n', "") +
-                 '[[walls]]\nkind = "plane"\npoints = [[0, 0, 0]]\nnormal = [0, 0, 1]\n\n' + runs.quiet)
-        table = {"x": zero, "y": row, "z": sunk * one, "vx": start, "vy": zero, "vz": zero, "omega_x": zero,
-                 "omega_y": -spin, "omega_z": zero, "radius": one, "mass": one}
-        end = run(folder, scene, table, program, steps, dt)
-        rolled = end["omegay"]
+        table.update(y=4 * number + 2, z=sunk, omega_y=-spin)
+        box = f"dimension = 3\nlower = [-10, 0, -1]\nupper = [{way}, {4 * runs.phases}, 4]\ngravity = [0, 0, -1]\n"
+        plane = "points = [[0, 0, 0]]\nnormal = [0, 0, 1]"
     else:
-        apart = 4 + 2 * until * float(start.max())
-        scene = (f"[domain]\nlower = [-10, -1]\nupper = [{runs.phases * apart}, 4]\ngravity = [0, -1]\n" + text +
-                 '[[walls]]\nkind = "plane"\npoints = [[0, 0]]\nnormal = [0, 1]\n\n' + runs.quiet)
-        table = {"x": apart * numpy.arange(runs.phases), "y": sunk * one, "vx": start, "vy": zero, "omega": spin, "radius": one, "mass": one}
-        end = run(folder, scene, table, program, steps, dt)
-        rolled = -end["omegaz"]
-    right = numpy.array([case.after(v, steps * dt) for v in start])
-    return end["vx"], rolled, right, start
+        table.update(y=sunk, omega=spin)
+        box = f"lower = [-10, -1]\nupper = [{runs.phases * way}, 4]\ngravity = [0, -1]\n"
+        plane = "points = [[0, 0]]\nnormal = [0, 1]"
+    scene = f'[domain]\n{box}{text}[[walls]]\nkind = "plane"\n{plane}\n\n{runs.quiet}'
+    return run(runs.clear(folder), scene, table, program, steps, dt)
 
 
 def run(folder, scene, table, program, steps, dt, *more):

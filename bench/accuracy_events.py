@@ -5,7 +5,6 @@ import math
 import statistics
 import subprocess
 
-import accuracy
 import accuracy_tables as common
 import measure
 import tables
@@ -60,7 +59,8 @@ def times(rounds, events=200000):
         for n in sizes:
             for algorithm in ("simple", "improved"):
                 if algorithm == "improved" or n <= largest_simple:
-                    row = program("cost", algorithm, 2, 0.5, n, events // (20 if algorithm == "simple" else 1))[0]
+                    some = max(1000, 10 * events // (7 * n)) if algorithm == "simple" else events
+                    row = program("cost", algorithm, 2, 0.5, n, some)[0]
                     found.setdefault((algorithm, n), []).append(row)
     return {key: dict(rows[0], ns=statistics.median(r["ns"] for r in rows)) for key, rows in found.items()}
 

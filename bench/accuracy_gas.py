@@ -60,8 +60,8 @@ def scans(seeds, particles):
 
 
 def evaluate():
-    found = scans(3, 1000000)
-    found["grid"] = [[*at, *viscosity(*at, 2)] for at in grid]
+    found = scans(2, 500000)
+    found["grid"] = [[*at, *viscosity(*at, 2, 250000)] for at in grid]
     found["rates"] = {scheme: [program("rate", scheme, 0.5, load, 10, 100000, 1)[0] for load in loads]
                       for scheme in schemes}
     found["sonine"] = {scheme: [program("sonine", scheme, 0.5, load, 48, 200000, 1)[0] for load in (0.05, 0.2, 0.5)]
@@ -120,7 +120,8 @@ def front_table(found, cost_of):
     points = {(e, s, n): (cost_of[s, n] * n / e**3 / s, abs(value / limit - 1)) for e, s, n, value, _ in found["grid"]}
     noise = max(p[4] for p in found["grid"]) / limit
     front = accuracy.front_of({a: (c, max(e, noise)) for a, (c, e) in points.items()})
-    text = tables.head("cell edge/l", "dt times rate", "particles per cell", "error", "ns per cubic free path and collision time")
+    text = tables.head("cell edge/l", "dt times rate", "particles per cell", "error",
+                       "ns per cubic free path and collision time")
     for at, (cost, error) in sorted(points.items(), key=lambda item: item[1][0]):
         cell = f"{error:.4f}"
         text += tables.row(*(f"{v:g}" for v in at), f"**{cell}**" if at in front else cell, f"{cost:.0f}")

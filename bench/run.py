@@ -345,7 +345,7 @@ def main():
     sub.add_argument("--seconds", type=float, default=0.3, help="least time of one run")
     sub = command("stability", stability, "event-driven dynamics, 1e9 events: no overlap, no drift of the energy (ten minutes)")
     sub.add_argument("--events", type=float, default=1e9, help="number of events")
-    sub = command("accuracy", accuracy, "errors of known answers against the time they cost: every engine (six minutes)")
+    sub = command("accuracy", accuracy, "errors of known answers against the time they cost: every engine (some minutes)")
     sub.add_argument("--part", nargs="+", choices=["md", "contacts", "precision", "edmd", "dsmc", "automata"],
                      help="only these; all if left out")
     sub.add_argument("--reuse", action="store_true", help="takes errors from the last run, and measures costs only")
