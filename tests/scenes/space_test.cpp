@@ -85,9 +85,9 @@ TEST(SlowShippedScenes, ColumnCollapsesAndComesToRest) {
 // Spheres that have settled are packed between the loosest and the densest random packing, 0.55 and 0.64 (G.
 // Y. Onoda, E. G. Liniger, Phys. Rev. Lett. 64, 2727 (1990)).
 TEST(SlowShippedScenes, SpheresSettleToARandomPacking) {
-    md::Simulation sim = shipped("settling-1e6.toml",
-                                 {"domain.upper=[0.0352, 0.0352, 0.12]", "grains.0.counts=[8, 8, 20]",
-                                  "analysis.0.to=[0.0352, 0.0352, 0.11]", "md.duration=0.25"});
+    md::Simulation sim =
+        shipped("settling-1e6.toml", {"domain.upper=[0.0352, 0.0352, 0.12]", "grains.0.counts=[8, 8, 20]",
+                                      "analysis.0.to=[0.0352, 0.0352, 0.11]", "md.duration=0.25"});
     sim.run(sim.plan().steps);
     const Snapshot s = sim.snapshot();
     EXPECT_EQ(s.size(), 1280U);
