@@ -272,7 +272,11 @@ def gases(options):
 
 
 def stability(options):
-    return subprocess.run([measure.build / "bench" / "bench_edmd", "--stress", str(options.events)]).returncode
+    return importlib.import_module("stability").main(options)
+
+
+def faults(options):
+    return importlib.import_module("faults").main(options)
 
 
 def main():
@@ -343,8 +347,18 @@ def main():
     sub.add_argument("--particles", type=int, nargs="+", default=[100000, 1000000], choices=[10000, 100000, 1000000])
     sub.add_argument("--rounds", type=int, default=3, help="times that all cases run in turn")
     sub.add_argument("--seconds", type=float, default=0.3, help="least time of one run")
-    sub = command("stability", stability, "event-driven dynamics, 1e9 events: no overlap, no drift of the energy (ten minutes)")
-    sub.add_argument("--events", type=float, default=1e9, help="number of events")
+    sub = command("stability", stability, "stress cases of the specifications: expected and observed behaviour (two minutes)")
+    length = sub.add_mutually_exclusive_group()
+    length.add_argument("--quick", action="store_true", help="without the long runs; the default")
+    length.add_argument("--soak", action="store_true", help="with the long runs: 1e9 events, 1e7 steps, 1e10 site updates (an hour)")
+    sub.add_argument("--case", action="append", metavar="NAME", help="only cases whose names contain NAME; may be repeated")
+    sub.add_argument("--write", action="store_true", help="writes the table into docs/stability.md; rows of cases not run "
+                     "stay as an earlier run left them")
+    sub = command("faults", faults, "runs killed at random moments, full disks, damaged checkpoints (ten minutes)")
+    sub.add_argument("--kills", type=int, default=100, help="of each engine")
+    sub.add_argument("--seed", type=int, default=1, help="of the moments")
+    sub.add_argument("--only", nargs="+", metavar="ENGINE", help="names of scenes")
+    sub.add_argument("--write", action="store_true", help="writes the table into docs/stability.md")
     sub = command("accuracy", accuracy, "errors of known answers against the time they cost: every engine (some minutes)")
     sub.add_argument("--part", nargs="+", choices=["md", "contacts", "precision", "edmd", "dsmc", "automata"],
                      help="only these; all if left out")

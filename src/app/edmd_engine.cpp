@@ -70,8 +70,12 @@ public:
     void run_until(std::int64_t steps, double until) override {
         const double end =
             scene_->edmd.duration > 0 ? scene_->edmd.duration : std::numeric_limits<double>::infinity();
-        if (runs_.run(steps, std::min(end, until)) < steps && end <= until) ended_ = true;
+        const double to = std::min(end, until);
+        if (runs_.run(steps, to) == steps) return;
+        reached_ = std::isfinite(to) ? to : time();
+        ended_ = end <= until;
     }
+    [[nodiscard]] double reached() const override { return reached_; }
     [[nodiscard]] std::int64_t step() const override {
         return static_cast<std::int64_t>(runs_.first().log().count());
     }
@@ -105,6 +109,7 @@ public:
         log_.serialise(out);
         watcher_.serialise(out);
         out.put_text(runs_.serialise());
+        out.put(reached_);
     }
     void restore(const std::string& state, const std::string& origin) override {
         try {
@@ -112,6 +117,7 @@ public:
             log_.restore(in);
             watcher_.restore(in);
             runs_.restore(in.get_text());
+            reached_ = in.get<double>();
         } catch (const Error& e) {
             fail(e.code(),
                  "{}: {}. Overrides by --set must keep gas, species, domain, sides, cells, heating and "
@@ -234,6 +240,7 @@ private:
     simd::Isa isa_;
     edmd::Ensemble runs_;
     bool ended_ = false; // nothing is left to happen until the end
+    double reached_ = 0; // s
     EdmdLog log_;
     Watcher watcher_;
     std::vector<GasTotals> start_;                 // of each

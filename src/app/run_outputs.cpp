@@ -1,6 +1,7 @@
 #include "app/run_outputs.hpp"
 
 #include "core/file.hpp"
+#include "core/hash.hpp"
 #include "output/picture.hpp"
 #include "output/report.hpp"
 #include "scene/reader.hpp"
@@ -18,6 +19,12 @@ namespace {
 
 std::string checkpoint_name(std::int64_t step) {
     return fmt::format("{:012}.checkpoint", step);
+}
+
+// Of a scene, as one word.
+std::string hash_of(const scene::Scene& scene) {
+    const std::string text = scene::write_scene(scene);
+    return hash_bytes(text.data(), text.size()).hex();
 }
 
 // Those of the run before, up to the one it goes on from. Later ones will be written again.
@@ -38,7 +45,8 @@ std::vector<fs::path> earlier_checkpoints(const fs::path& folder, std::int64_t s
 RunOutputs::RunOutputs(const fs::path& folder, Engine& engine, std::string plan_text,
                        const output::Checkpoint* resume)
     : engine_(engine),
-      folder_(folder, resume != nullptr ? output::RunFolder::Start::resume : output::RunFolder::Start::fresh),
+      folder_(folder, resume != nullptr ? output::RunFolder::Start::resume : output::RunFolder::Start::fresh,
+              resume != nullptr ? output::bookmark_in(resume, "origin") : hash_of(engine.scene())),
       plan_text_(std::move(plan_text)) {
     const scene::Output& o = engine.scene().output;
     log_timer_ = Timer(o.log_every, 200, engine, Spacing::paced);
@@ -87,6 +95,7 @@ std::string RunOutputs::write_checkpoint() {
     c.step = engine_.step();
     c.wall_seconds = wall_before_ + clock_.seconds();
     c.bookmarks["log"] = log_->bookmark();
+    c.bookmarks["origin"] = folder_.origin();
     recorder_->add_bookmarks(c.bookmarks);
     const fs::path path = folder_.checkpoints() / checkpoint_name(engine_.step());
     output::write_checkpoint(path, c, [&](ByteWriter& out) { engine_.serialise(out); });

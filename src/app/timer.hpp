@@ -32,13 +32,14 @@ public:
     [[nodiscard]] bool is_on() const { return steps_ != never || every_ > 0; }
 
 private:
-    // Times at which it was due, up to a time: the last of them is mark(marks(time)).
+    // Times at which it was due, up to and with a time: the last of them is mark(marks(time)).
     [[nodiscard]] std::int64_t marks(double time) const;
     [[nodiscard]] double mark(std::int64_t n) const;
 
     std::int64_t steps_ = never;
     double every_ = 0;  // s; 0: by steps
     double growth_ = 1; // of the times one after the other
+    double end_ = 0;    // of the run, s
     std::int64_t done_ = 0;
 };
 

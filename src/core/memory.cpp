@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace sandlane {
@@ -15,6 +16,9 @@ double allowed_memory() {
     double limit = 0;
     std::ifstream file("/sys/fs/cgroup/memory.max"); // "max" without a limit
     if (file >> limit && limit > 0) allowed = std::min(allowed, limit);
+    rlimit address_space{}; // ulimit -v
+    if (::getrlimit(RLIMIT_AS, &address_space) == 0 && address_space.rlim_cur != RLIM_INFINITY)
+        allowed = std::min(allowed, static_cast<double>(address_space.rlim_cur));
     return allowed;
 }
 

@@ -5,7 +5,7 @@
 
 namespace sandlane {
 
-// Bytes: the machine's memory, or the limit of the cgroup if that is lower.
+// Bytes: the machine's memory, or the limit of the cgroup or of `ulimit -v` if one is lower.
 [[nodiscard]] double allowed_memory();
 
 // Throws Error(unavailable) "WHAT needs about ... GB ..." for more than allowed_memory().

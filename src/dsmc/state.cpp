@@ -12,6 +12,21 @@ namespace sandlane::dsmc {
 
 using simd::gas_row;
 
+namespace {
+
+// Identity and kind, which the last numbers of the rows hold.
+Particle particle_at(const double* place, const double* velocity) {
+    Particle p;
+    std::uint64_t word = 0, images = 0;
+    std::memcpy(&word, place + 3, sizeof word);
+    std::memcpy(&images, velocity + 3, sizeof images);
+    p.id = static_cast<std::uint32_t>(word);
+    p.kind = static_cast<std::uint32_t>(images >> 60);
+    return p;
+}
+
+} // namespace
+
 template <class Body> void Simulation::for_rows(const Body& body) const {
     for (const Tile& tile : tiles_) {
         const simd::GasRows rows = const_cast<Tile&>(tile).rows.view();
@@ -25,12 +40,9 @@ std::vector<Particle> Simulation::particles() const {
     std::vector<Particle> all;
     all.reserve(size_);
     for_rows([&](const double* place, const double* velocity, const double* spin) {
-        Particle p;
-        std::uint64_t word = 0, images = 0;
-        std::memcpy(&word, place + 3, sizeof word);
+        Particle p = particle_at(place, velocity);
+        std::uint64_t images = 0;
         std::memcpy(&images, velocity + 3, sizeof images);
-        p.id = static_cast<std::uint32_t>(word);
-        p.kind = static_cast<std::uint32_t>(images >> 60);
         for (std::size_t d = 0; d < 3; ++d) {
             p.place[d] = place[d];
             p.velocity[d] = velocity[d];
@@ -195,8 +207,11 @@ void Simulation::restore(const std::string& bytes) {
     belongs(total == size_ && in.at_end());
     belongs(step_ >= 0 && std::isfinite(time_) && dt_ > 0 && std::isfinite(dt_) && next_dt_ > 0 &&
             std::isfinite(next_dt_));
+    std::vector<bool> seen(size_, false);
     for_rows([&](const double* place, const double* velocity, const double* spin) {
-        belongs(suits(setup_, std::max(dt_, next_dt_), place, velocity, spin));
+        const std::uint32_t id = particle_at(place, velocity).id;
+        belongs(id < size_ && !seen[id] && suits(setup_, std::max(dt_, next_dt_), place, velocity, spin));
+        seen[id] = true;
     });
     find_maxwell_rate();
 }

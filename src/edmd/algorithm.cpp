@@ -56,6 +56,25 @@ Hash128 Algorithm::state_hash() const {
     return hash_bytes(out.bytes().data(), out.bytes().size());
 }
 
+void Algorithm::put_frame(ByteWriter& out) const {
+    out.put(setup_.dimension);
+    for (int d = 0; d < 3; ++d) {
+        out.put(setup_.lower[d]);
+        out.put(setup_.upper[d]);
+        out.put(setup_.periodic[d]);
+    }
+    out.put(static_cast<std::uint64_t>(size()));
+    out.put(setup_.rough);
+    out.put(setup_.shear);
+    out.put(setup_.kicks);
+    out.put(setup_.kick_interval);
+    for (const Class& c : setup_.classes) {
+        out.put(c.radius);
+        out.put(c.mass);
+        out.put(c.inertia);
+    }
+}
+
 void Algorithm::put_course(ByteWriter& out) const {
     out.put_array(&clock_, 1);
     out.put_array(&tally_, 1);

@@ -70,6 +70,8 @@ protected:
     explicit Algorithm(Setup setup) : setup_(std::move(setup)) {}
     Algorithm(const Algorithm&) = default;
 
+    // What a state must share with the simulation that takes it up.
+    void put_frame(ByteWriter& out) const;
     // Clock, sums and log of a checkpoint.
     void put_course(ByteWriter& out) const;
     void get_course(ByteReader& in);

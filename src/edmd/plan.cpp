@@ -151,6 +151,28 @@ void expect_events(const scene::Scene& scene, Plan& plan) {
     plan.first_output = rate > 0 ? std::min(1 / rate, plan.duration) : plan.duration;
 }
 
+// Outputs at equal distances are taken one by one, and two times closer than this may be the same number.
+void check_intervals(const scene::Scene& scene, const Plan& plan) {
+    using scene::EventSpacing;
+    const auto check = [&](const char* key, double every) {
+        const double least = 1e-9 * plan.duration;
+        if (every > 0 && every < least)
+            fail(Exit::invalid_input,
+                 "{}: {} s is out of range in a run of about {:.4g} s; allowed: at least {:.4g} s, a "
+                 "billionth "
+                 "of it. Give a longer interval, or -1 for none",
+                 key, every, plan.duration, least);
+    };
+    if (scene.edmd.output_spacing == EventSpacing::events) return; // at least one event
+    check("output.checkpoint_every", scene.output.checkpoint_every);
+    check("edmd.sample_every", scene.edmd.sample_every);
+    check("edmd.structure_every", scene.edmd.structure_every);
+    if (scene.edmd.output_spacing != EventSpacing::time) return; // ever longer ones
+    check("output.log_every", scene.output.log_every);
+    check("output.picture_every", scene.output.picture_every);
+    check("output.trajectory_every", scene.output.trajectory_every);
+}
+
 void say_what_is_skipped(Plan& plan) {
     const Setup& s = plan.setup;
     const auto skip = [&](bool condition, const char* text) {
@@ -280,6 +302,7 @@ Plan make_plan(const scene::Scene& scene, simd::Isa isa, const ThreadChoice& thr
     check_curved(plan);
     choose_kicks(scene, plan);
     expect_events(scene, plan);
+    check_intervals(scene, plan);
     say_what_is_skipped(plan);
     warn(scene, plan);
     return plan;

@@ -39,26 +39,10 @@ std::vector<RawState> Simulation::raw_states() const {
     return all;
 }
 
-// Everything that a state must share with the simulation that takes it up.
 std::string Simulation::frame() const {
     ByteWriter out;
-    out.put(setup_.dimension);
-    for (int d = 0; d < 3; ++d) {
-        out.put(setup_.lower[d]);
-        out.put(setup_.upper[d]);
-        out.put(setup_.periodic[d]);
-        out.put(view_.count[d]);
-    }
-    out.put(static_cast<std::uint64_t>(states_.size()));
-    out.put(setup_.rough);
-    out.put(setup_.shear);
-    out.put(setup_.kicks);
-    out.put(setup_.kick_interval);
-    for (const Class& c : setup_.classes) {
-        out.put(c.radius);
-        out.put(c.mass);
-        out.put(c.inertia);
-    }
+    put_frame(out);
+    for (const std::int32_t count : view_.count) out.put(count);
     return std::move(out).bytes();
 }
 

@@ -13,7 +13,7 @@
 
 namespace sandlane::output {
 
-inline constexpr std::uint32_t checkpoint_version = 5;
+inline constexpr std::uint32_t checkpoint_version = 6;
 
 struct Progress {
     std::string scene; // effective scene, TOML

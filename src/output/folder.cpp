@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -34,12 +35,20 @@ fs::path make_folder(const fs::path& path) {
     return made;
 }
 
-std::string owner(int file) {
-    std::array<char, 200> text{};
-    const ssize_t length = ::pread(file, text.data(), text.size(), 0);
-    std::string name(text.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
-    while (!name.empty() && name.back() == '\n') name.pop_back();
-    return name.empty() ? "another process" : name;
+// What stands in the file: "process N on HOST", and the origin.
+struct Mark {
+    std::string owner = "another process", origin;
+};
+
+Mark read_mark(int file) {
+    std::array<char, 400> bytes{};
+    const ssize_t length = ::pread(file, bytes.data(), bytes.size(), 0);
+    const std::string text(bytes.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    Mark mark;
+    if (end > 0) mark.owner = text.substr(0, end);
+    if (end < text.size()) mark.origin = text.substr(end + 1, text.find('\n', end + 1) - end - 1);
+    return mark;
 }
 
 std::string this_process() {
@@ -50,7 +59,8 @@ std::string this_process() {
 
 } // namespace
 
-RunFolder::RunFolder(fs::path path, Start start) : path_(std::move(path)) {
+RunFolder::RunFolder(fs::path path, Start start, std::string origin)
+    : path_(std::move(path)), origin_(std::move(origin)) {
     if (!path_.has_filename()) path_ = path_.parent_path(); // "results/"
     made_ = make_folder(path_);
     try {
@@ -63,12 +73,13 @@ RunFolder::RunFolder(fs::path path, Start start) : path_(std::move(path)) {
 }
 
 RunFolder::RunFolder(RunFolder&& other) noexcept
-    : path_(std::move(other.path_)), made_(std::exchange(other.made_, {})),
+    : path_(std::move(other.path_)), made_(std::exchange(other.made_, {})), origin_(std::move(other.origin_)),
       lock_(std::exchange(other.lock_, -1)) {}
 
 RunFolder& RunFolder::operator=(RunFolder&& other) noexcept {
     std::swap(path_, other.path_);
     std::swap(made_, other.made_);
+    std::swap(origin_, other.origin_);
     std::swap(lock_, other.lock_);
     return *this;
 }
@@ -103,16 +114,23 @@ void RunFolder::lock(Start start) {
     const bool created = lock_ >= 0;
     if (!created && errno == EEXIST) lock_ = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
     if (lock_ < 0) fail(Exit::io, "{}: cannot create the file: {}", file.string(), std::strerror(errno));
+    const Mark mark = created ? Mark{} : read_mark(lock_);
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
         if (errno == EWOULDBLOCK)
-            fail(Exit::invalid_input, "{}: {} is writing a run here. {}", path_.string(), owner(lock_),
+            fail(Exit::invalid_input, "{}: {} is writing a run here. {}", path_.string(), mark.owner,
                  way_out);
         fail(Exit::io, "{}: cannot lock the file: {}", file.string(), std::strerror(errno));
     }
     if (!created && start == Start::fresh)
-        fail(Exit::invalid_input, "{}: already holds a run, by {}. {}", path_.string(), owner(lock_),
-             way_out);
-    const std::string text = this_process();
+        fail(Exit::invalid_input, "{}: already holds a run, by {}. {}", path_.string(), mark.owner, way_out);
+    if (origin_.empty()) origin_ = mark.origin;
+    if (!mark.origin.empty() && mark.origin != origin_)
+        fail(
+            Exit::io,
+            "{}: holds a run of another scene than the checkpoint does. Choose another folder with --out, or "
+            "take a checkpoint of this run.",
+            path_.string());
+    const std::string text = this_process() + origin_ + "\n";
     if (::ftruncate(lock_, 0) == 0 && ::pwrite(lock_, text.data(), text.size(), 0) >= 0) return;
     const int cause = errno;
     if (created) ::unlink(file.c_str());

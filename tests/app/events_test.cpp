@@ -1,6 +1,8 @@
 // Event-driven dynamics through the program: run, compare, checkpoints, outputs, refusals.
 #include "program.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -166,6 +168,37 @@ TEST_F(Events, OutputsFollowTheClock) {
     EXPECT_EQ(read("even/log.csv"), read("parts/log.csv"));
 }
 
+// Where a run is looked at, it depends on the clock on the wall; here it is cut at an event just before a
+// row.
+TEST_F(Events, RowsDoNotDependOnWhereARunIsCut) {
+    write("hard.toml", hard_scene);
+    run_well({"run", "hard.toml", "--quiet", "--steps", "500", "--out", "events", "--set",
+              "edmd.output_spacing=events", "--set", "output.log_every=1e-9"});
+    const double last = times_of(read("events/log.csv")).back();
+    for (const double part : {1.0, 0.2})
+        for (const char* spacing : {"time", "log-time"}) {
+            const std::vector<std::string> run = {"run",
+                                                  "hard.toml",
+                                                  "--quiet",
+                                                  "--set",
+                                                  "output.log_every=" +
+                                                      fmt::format("{:.17g}", part * last * (1 + 3e-7)),
+                                                  "--set",
+                                                  std::string("edmd.output_spacing=") + spacing};
+            const auto with = [&](std::vector<std::string> more) {
+                more.insert(more.begin(), run.begin(), run.end());
+                return more;
+            };
+            for (const char* out : {"once", "parts"}) fs::remove_all(path(out));
+            run_well(with({"--out", "once"}));
+            run_well(with({"--out", "parts", "--steps", "500"}));
+            run_well({"run", "--resume", latest_checkpoint("parts"), "--quiet"});
+            EXPECT_EQ(read("once/log.csv"), read("parts/log.csv")) << part << spacing;
+            EXPECT_EQ(json_of(read("once/summary.json"))["state_hash"],
+                      json_of(read("parts/summary.json"))["state_hash"]);
+        }
+}
+
 TEST_F(Events, RefuseWhatTheyCannotDo) {
     struct Case {
         std::string from, to;
@@ -193,6 +226,13 @@ TEST_F(Events, RefuseWhatTheyCannotDo) {
              {"duration = 10", "duration = 10\nstart = \"grow\"", {"edmd.start", "growth"}},
              {"duration = 10", "duration = 10\ngrowth_rate = 1", {"edmd.growth_rate", "start"}},
              {"duration = 10", "duration = 10\nheating_interval = 1", {"edmd.heating_interval", "heating"}},
+             {"duration = 10",
+              "duration = 10\nsample_every = 1e-12",
+              {"edmd.sample_every: 1e-12 s", "at least 1e-08 s"}},
+             {"[edmd]", "[output]\nlog_every = 1e-300\n[edmd]", {"output.log_every: 1e-300 s"}},
+             {"duration = 10",
+              "events = 10\n[output]\nlog_every = 1e-12",
+              {"output.log_every: 1e-12 s", "a billionth of it"}},
              {"[edmd]", "[dsmc]\ndt = 1\n[edmd]", {"dsmc", "is not read by method = \"edmd\""}},
              {"[edmd]", "[[species]]\nparticles = 3\ndiameter = 0.001\n[edmd]", {"species.diameter", "100"}},
          }) {

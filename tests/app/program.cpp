@@ -6,6 +6,8 @@
 #include <system_error>
 
 #include <fcntl.h>
+#include <linux/capability.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -47,10 +49,16 @@ std::string drain(int& descriptor) {
     for (const char* name : {"SANDLANE_ISA", "SANDLANE_THREADS", "OMP_NUM_THREADS"}) ::unsetenv(name);
     ::setenv("OMP_WAIT_POLICY", "passive", 1); // more threads than cores must not spin
     for (const auto& [name, value] : call.environment) ::setenv(name.c_str(), value.c_str(), 1);
-    if (call.largest_file != RLIM_INFINITY) {
-        const rlimit limit{call.largest_file, call.largest_file};
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-    }
+    const auto limit = [](__rlimit_resource what, rlim_t most) {
+        const rlimit both{most, most};
+        if (most != RLIM_INFINITY && ::setrlimit(what, &both) != 0) ::_exit(125);
+    };
+    limit(RLIMIT_FSIZE, call.largest_file);
+    limit(RLIMIT_AS, call.memory);
+    // What root may do beyond permissions is gone after exec().
+    if (!call.everywhere && ::geteuid() == 0)
+        for (const int capability : {CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH})
+            if (::prctl(PR_CAPBSET_DROP, capability, 0, 0, 0) != 0) ::_exit(125);
     std::vector<std::string> words = {SANDLANE_PROGRAM};
     words.insert(words.end(), call.arguments.begin(), call.arguments.end());
     std::vector<char*> argv;
@@ -98,6 +106,17 @@ Outcome Process::wait() {
     o.signal = WIFSIGNALED(status_) ? WTERMSIG(status_) : 0;
     o.memory = 1024 * static_cast<double>(usage_.ru_maxrss);
     return o;
+}
+
+std::map<std::string, std::string> App::results(const std::string& out) const {
+    const std::set<std::string> others{".lock", "summary.json", "report.html"};
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(path(out))) {
+        const fs::path& file = entry.path();
+        if (entry.is_regular_file() && !others.contains(file.filename()) && file.extension() != ".checkpoint")
+            files[file.lexically_relative(path(out))] = read(file.lexically_relative(folder_));
+    }
+    return files;
 }
 
 App::App() {

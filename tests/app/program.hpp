@@ -30,6 +30,8 @@ struct Call {
     std::vector<std::string> arguments;
     std::vector<std::pair<std::string, std::string>> environment = {};
     rlim_t largest_file = RLIM_INFINITY; // bytes
+    rlim_t memory = RLIM_INFINITY;       // of its address space, bytes
+    bool everywhere = true;              // false: root keeps to the permissions of files like everybody
     fs::path out = {}, err = {};         // empty: captured
 };
 
@@ -79,6 +81,8 @@ protected:
     // Fails the test unless the program ends with 0.
     Outcome run_well(std::vector<std::string> arguments) const;
     [[nodiscard]] const fs::path& folder() const { return folder_; }
+    // The files of a run but what tells of the process: its number, its times, when it wrote checkpoints.
+    [[nodiscard]] std::map<std::string, std::string> results(const std::string& out) const;
     // The newest below the folder of a run; empty if there is none.
     [[nodiscard]] std::string latest_checkpoint(const std::string& out) const;
 

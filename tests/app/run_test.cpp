@@ -9,9 +9,7 @@
 
 #include <chrono>
 #include <csignal>
-#include <map>
 #include <random>
-#include <set>
 #include <thread>
 
 namespace sandlane::test {
@@ -32,18 +30,6 @@ protected:
         EXPECT_EQ(hash_of(out), hash_of(reference));
         for (const char* file : {"/log.csv", "/trajectory.dump", "/trajectory.book"})
             EXPECT_EQ(read(out + file), read(reference + file)) << file;
-    }
-    // Everything but what tells of the process: its number, its times, when it wrote checkpoints.
-    [[nodiscard]] std::map<std::string, std::string> results(const std::string& out) const {
-        const std::set<std::string> others{".lock", "summary.json", "report.html"};
-        std::map<std::string, std::string> files;
-        for (const auto& entry : fs::recursive_directory_iterator(path(out))) {
-            const fs::path& file = entry.path();
-            if (entry.is_regular_file() && !others.contains(file.filename()) &&
-                file.extension() != ".checkpoint")
-                files[file.lexically_relative(path(out))] = read(file.lexically_relative(folder()));
-        }
-        return files;
     }
     // The data of plots and replay in the report.
     [[nodiscard]] std::string shown(const std::string& out) const {

@@ -4,6 +4,8 @@
 #include "core/error.hpp"
 #include "support/says.hpp"
 
+#include <sys/resource.h>
+
 namespace sandlane {
 
 namespace {
@@ -19,6 +21,17 @@ TEST(Memory, RefusesWhatCannotBe) {
         EXPECT_SAYS(std::string(e.what()),
                     "a large scene needs about 3e+09 GB of memory; this process may use");
     }
+}
+
+TEST(Memory, KnowsTheLimitOfItsAddressSpace) {
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_AS, &before), 0);
+    const auto less = static_cast<rlim_t>(allowed_memory() / 2);
+    const rlimit lower{less, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_AS, &lower), 0);
+    const double allowed = allowed_memory();
+    ASSERT_EQ(::setrlimit(RLIMIT_AS, &before), 0);
+    EXPECT_EQ(allowed, static_cast<double>(less));
 }
 
 } // namespace

@@ -1,7 +1,13 @@
 // The same bits for every instruction set, number of threads and division of a run, and after a checkpoint.
 #include "dsmc/support.hpp"
 
+#include "core/error.hpp"
+
 #include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
 
 using namespace sandlane;
 
@@ -165,4 +171,37 @@ TEST(Bits, OneRunOrSeveralOrAfterACheckpoint) {
         EXPECT_EQ(later.wall_energy(), straight.wall_energy()) << c.name;
         EXPECT_EQ(later.counts().collisions, straight.counts().collisions) << c.name;
     }
+}
+
+// States with a checksum that holds, but made up.
+TEST(Bits, StatesThatCannotBe) {
+    dsmc::Setup setup = test::gas(3, 0.9, 200, 12);
+    setup.others = {{2, 1.5, 0.5}};
+    const auto start = dsmc::maxwellian(setup, 200, 1);
+    dsmc::Simulation gas(setup, start, simd::Isa::scalar, 1);
+    const std::string good = gas.serialise();
+    gas.restore(good);
+    // The rows of the first tile stand behind the frame, the step, six sums, four counts and the number of
+    // tiles.
+    std::uint64_t frame = 0, numbers = 0;
+    std::memcpy(&frame, good.data(), sizeof frame);
+    const std::size_t places = 8 + frame + 8 + 6 * 8 + 4 * 8 + 8;
+    std::memcpy(&numbers, good.data() + places, sizeof numbers);
+    ASSERT_GE(numbers, 8U); // two particles
+    const std::size_t place = places + 8, velocity = place + 8 * numbers + 8;
+    const auto refused = [&](std::size_t at, std::uint64_t word) {
+        std::string bytes = good;
+        std::memcpy(bytes.data() + at, &word, sizeof word);
+        EXPECT_THROW(gas.restore(bytes), Error) << at << " " << word;
+    };
+    std::uint64_t identity = 0, images = 0;
+    std::memcpy(&identity, good.data() + place + 24, sizeof identity);
+    std::memcpy(&images, good.data() + velocity + 24, sizeof images);
+    refused(velocity + 24, (images & ~(std::uint64_t{15} << 60)) | std::uint64_t{2} << 60); // a third kind
+    refused(velocity, std::bit_cast<std::uint64_t>(std::nan("")));
+    refused(place, std::bit_cast<std::uint64_t>(std::nan("")));
+    refused(place, std::bit_cast<std::uint64_t>(1e300));
+    refused(place + 24, identity + 200); // nobody has this number
+    refused(place + 32 + 24, identity);  // or two have it
+    gas.restore(good);
 }

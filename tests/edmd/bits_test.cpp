@@ -182,7 +182,19 @@ TEST(EdmdBits, StatesOfSomethingElseAreRefused) {
     edmd::Simulation different(other, particles_of(c), simd::Isa::scalar, 1);
     EXPECT_THROW(different.restore(state), Error);
     EXPECT_THROW(gas.restore(state.substr(0, state.size() / 2)), Error);
-    EXPECT_THROW(edmd::SimpleAlgorithm(c.setup, particles_of(c)).restore(state), Error);
+    edmd::SimpleAlgorithm simple(c.setup, particles_of(c));
+    EXPECT_THROW(simple.restore(state), Error);
+    simple.restore(edmd::SimpleAlgorithm(c.setup, particles_of(c)).serialise());
+    EXPECT_THROW(simple.restore(edmd::SimpleAlgorithm(other, particles_of(c)).serialise()), Error);
+    // Kicks are counted: at other intervals the count would mean another time.
+    edmd::Setup heated = c.setup;
+    heated.kicks = 0.1;
+    heated.kick_interval = 0.5;
+    edmd::Setup often = heated;
+    often.kick_interval = 0.25;
+    const std::string kicked = edmd::SimpleAlgorithm(often, particles_of(c)).serialise();
+    EXPECT_THROW(simple.restore(kicked), Error);
+    EXPECT_THROW(edmd::SimpleAlgorithm(heated, particles_of(c)).restore(kicked), Error);
 }
 
 // Rows of discs that move alike: all crossings and many contacts fall on the same times.

@@ -289,9 +289,16 @@ std::vector<RawState> SimpleAlgorithm::raw_states() const {
     return all;
 }
 
-std::string SimpleAlgorithm::serialise() const {
+std::string SimpleAlgorithm::frame() const {
     ByteWriter out;
     out.put_text("simple");
+    put_frame(out);
+    return std::move(out).bytes();
+}
+
+std::string SimpleAlgorithm::serialise() const {
+    ByteWriter out;
+    out.put_text(frame());
     const std::vector<RawState> states = raw_states();
     out.put_array(states.data(), states.size());
     put_course(out);
@@ -301,10 +308,10 @@ std::string SimpleAlgorithm::serialise() const {
 void SimpleAlgorithm::restore(const std::string& bytes) {
     ByteReader in(bytes);
     std::vector<RawState> states;
-    if (in.get_text() != "simple") fail(Exit::io, "the state is of the improved algorithm");
+    if (in.get_text() != frame())
+        fail(Exit::io, "the state is of the other algorithm, other particles, another box or other heating");
     in.get_array(states);
-    if (states.size() != states_.size())
-        fail(Exit::io, "the state is of {} particles instead of {}", states.size(), states_.size());
+    if (states.size() != states_.size()) fail(Exit::io, "damaged state");
     for (std::size_t n = 0; n < states.size(); ++n) {
         const RawState& s = states[n];
         if (s.kind >= setup_.classes.size()) fail(Exit::io, "damaged state");

@@ -41,6 +41,7 @@ private:
         std::array<std::int64_t, 3> boxes{};
     };
 
+    [[nodiscard]] std::string frame() const;
     [[nodiscard]] Next next_of_pair(std::size_t i, std::size_t j) const;
     [[nodiscard]] Next next_at_wall(std::size_t i, int wall) const;
     [[nodiscard]] static bool before(const Next& a, const Next& b);
