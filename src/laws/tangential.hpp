@@ -66,11 +66,11 @@ struct CundallStrack {
     template <class R> static SANDLANE_INLINE R force(const TangentialInput<R>& c, R* zeta) {
         const R zero(0.0);
         const R spring = zeta[0] + c.elapsed * c.rate;
-        const R damped = c.damping * c.rate;
-        const R trial = -(c.stiffness * spring) - damped;
+        const R drag = c.damping * c.rate;
+        const R trial = -(c.stiffness * spring) - drag;
         const R limit = c.friction * c.normal_force;
         const R force = max(min(trial, limit), -limit);
-        const R pulled = -(force + damped) / c.stiffness;
+        const R pulled = -(force + drag) / c.stiffness;
         const R held = select(trial > limit, pulled, select(-limit > trial, pulled, spring));
         zeta[0] = select(c.normal_force > zero, held, zero);
         return force;
@@ -79,15 +79,15 @@ struct CundallStrack {
         const R zero(0.0), one(1.0);
         const Vector<R> none{zero, zero, zero};
         const Vector<R> spring = carried(c, {zeta[0], zeta[1], zeta[2]}) + c.elapsed * c.velocity;
-        const Vector<R> damped = c.damping * c.velocity;
-        const Vector<R> trial = -c.stiffness * spring - damped;
+        const Vector<R> drag = c.damping * c.velocity;
+        const Vector<R> trial = -c.stiffness * spring - drag;
         const R limit = c.friction * c.normal_force;
         const R square = dot(trial, trial);
         const auto slides = square > limit * limit;
         Vector<R> force = trial, held = spring;
         if (any(slides)) {
             force = select(slides, limit / sqrt(square), one) * trial;
-            held = select(slides, -(one / c.stiffness) * (force + damped), spring);
+            held = select(slides, -(one / c.stiffness) * (force + drag), spring);
         }
         held = select(c.normal_force > zero, held, none);
         zeta[0] = held.x;

@@ -201,7 +201,12 @@ TEST(ResolvedOnset, RefusesWhatHasNoKernels) {
             EXPECT_SAYS(std::string(e.what()), words);
         }
     };
-    refused([](scene::Scene& s) { s.md.normal = NormalLaw::walton_braun; }, "linear-dashpot, viscoelastic");
+    refused(
+        [](scene::Scene& s) {
+            s.md.normal = NormalLaw::walton_braun;
+            s.materials[0].unloading_stiffness = 2 * s.materials[0].stiffness;
+        },
+        "linear-dashpot, viscoelastic");
     refused([](scene::Scene& s) { s.md.neighbours = scene::NeighbourMethod::lattice; }, "verlet");
     refused(
         [](scene::Scene& s) {
