@@ -104,7 +104,7 @@ public:
     // program started.
     [[nodiscard]] virtual std::int64_t stride() const { return 1; }
     [[nodiscard]] virtual std::int64_t taken() const { return step(); }
-    [[nodiscard]] virtual double time() const = 0;      // at step()
+    [[nodiscard]] virtual double time() const = 0; // at step()
     // Where outputs go by time: all that happens up to this time, and at it, is done, s.
     [[nodiscard]] virtual double reached() const { return time(); }
     [[nodiscard]] virtual double time_step() const = 0; // intervals of outputs are counted in it

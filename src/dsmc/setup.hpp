@@ -41,10 +41,10 @@ struct Setup {
     laws::CollisionScheme scheme = laws::CollisionScheme::no_time_counter;
     bool enskog = false;
     std::int32_t partners = 1; // of which the nearest is taken
-    double dt = 0;         // s
-    bool adaptive = false; // dt grows as 1/sqrt(T)
-    double kicks = 0;      // white noise xi^2 of each velocity component, m^2/s^3
-    double margin = 1.1;   // of the majorant
+    double dt = 0;             // s
+    bool adaptive = false;     // dt grows as 1/sqrt(T)
+    double kicks = 0;          // white noise xi^2 of each velocity component, m^2/s^3
+    double margin = 1.1;       // of the majorant
     std::uint64_t seed = 1;
 
     // Of the flow at a height, m/s.
