@@ -3,7 +3,6 @@ damaged and swapped checkpoints, two runs in one folder. A run that goes on must
 undisturbed one. tools/test has a short part of it (tests/app/every_engine_test.cpp)."""
 import csv
 import os
-import pathlib
 import random
 import resource
 import shutil

@@ -110,7 +110,7 @@ def long(folder):
 
 
 def updates(folder, steps):
-    run = Run(folder, lattice(columns=512, rows=200, steps=steps, more="velocity = [0.1, 0]"))
+    run = Run(folder, lattice(columns=512, rows=200, steps=steps, more="velocity = [0.1, 0]"), patience=4000)
     log = run.log
     moving = [name for name in log if "momentum" in name or "velocity" in name]
     constant = {name: max(log[name]) - min(log[name]) for name in moving}

@@ -1,7 +1,7 @@
 """Stress cases of force-based dynamics: md-spheres.md, section 10, and md-vectorised-lattice.md, table 4."""
 import math
 
-from trial import Run, Verdict, case, tested
+from trial import Run, Verdict, case, sandlane, tested
 
 book, lattice = "md-spheres.md 10", "md-vectorised-lattice.md table 4"
 
@@ -88,7 +88,6 @@ def fixed_step(folder):
 
 
 def sandlane_check(folder):
-    from trial import sandlane
     done = sandlane(folder, "check", "scene.toml")
     return done.stdout + done.stderr
 
@@ -355,7 +354,7 @@ def elastic(folder, steps):
               for i in range(4) for k in range(4)]
     scene = discs(grains, stiffness=1e4, domain='periodic = ["x", "y"]', md='integrator = "gear6"\ndt = 2e-4',
                   duration=2e-4 * steps)
-    return Run(folder, scene)
+    return Run(folder, scene, patience=4000)
 
 
 tested("md masses, radii not positive or not finite", book, "rejected with record and column", "Refusals.GrainFiles")
