@@ -154,7 +154,7 @@ def denormals(folder):
     for name, more in (("normal", {}), ("tiny", dict(stiffness=1e-134, masses=(1e-140, 1e-140), length=1e-86))):
         run, _ = collide(folder / name, **more)
         speeds.append(run.log["largest_speed"][-1] / run.log["largest_speed"][0] if run.code == 0 else math.nan)
-    refused = collide(folder / "refused", stiffness=1e-294, masses=(1e-300, 1e-300), length=1e-3)[0].refuses(2, "no numbers")
+    refused = collide(folder / "refused", stiffness=1e-294, masses=(1e-300, 1e-300), length=1e-3)[0].refuses(2, "no duration that is a number")
     return Verdict(f"e = {speeds[0]:.9f} and {speeds[1]:.9f}; {refused.observed}",
                    abs(speeds[0] - speeds[1]) < 1e-9 and refused.good)
 
