@@ -3,7 +3,6 @@ damaged and swapped checkpoints, two runs in one folder. A run that goes on must
 undisturbed one. tools/test has a short part of it (tests/app/every_engine_test.cpp)."""
 import csv
 import os
-import pathlib
 import random
 import resource
 import shutil
@@ -17,7 +16,7 @@ import tables
 import trial
 
 page = measure.root / "docs/stability.md"
-columns = ("engine", "fault", "expected", "observed", "verdict")
+columns = ("scene", "fault", "expected", "observed", "verdict")
 outputs = "[output]\npicture_width = 64\nmovie = false\nreport = false\n"
 told_by_the_process = {".lock", "summary.json", "report.html", "scene.toml"}  # scene.toml: intervals of checkpoints differ
 stopped, refused, failed = 7, 2, 5  # exit codes

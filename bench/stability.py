@@ -1,6 +1,7 @@
 """Stress cases of the specifications, long runs, extreme scales: expected and observed behaviour as a table."""
 import csv
 import re
+import subprocess
 import sys
 import time
 
@@ -23,6 +24,8 @@ def row_of(case, folder):
     start = time.monotonic()
     try:
         verdict = case.run(trial.clear(folder / case.name.replace(" ", "-").replace(":", "-").replace("/", "-")))
+    except subprocess.TimeoutExpired as error:
+        verdict = trial.Verdict(f"not at its end after {error.timeout} s", False)
     except (ArithmeticError, LookupError, OSError, StopIteration, ValueError) as error:
         verdict = trial.Verdict(f"{type(error).__name__}: {error}", False)
     seconds = time.monotonic() - start

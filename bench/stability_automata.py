@@ -110,7 +110,7 @@ def long(folder):
 
 
 def updates(folder, steps):
-    run = Run(folder, lattice(columns=512, rows=200, steps=steps, more="velocity = [0.1, 0]"))
+    run = Run(folder, lattice(columns=512, rows=200, steps=steps, more="velocity = [0.1, 0]"), patience=4000)
     log = run.log
     moving = [name for name in log if "momentum" in name or "velocity" in name]
     constant = {name: max(log[name]) - min(log[name]) for name in moving}
@@ -123,5 +123,6 @@ tested("automata still mass in the pipe", source, "p = 1, g = 0: movers never in
 tested("automata reversal", source, "without collisions the way back is the way", "Gas.WithoutCollisionsTheWayBackIsTheWay")
 tested("automata tiles passed over", source, "bitwise equal", "Gas.EmptySegmentsChangeNothing")
 tested("automata quiet tiles of piles", source, "bitwise equal", "Sandpile.QuietTilesChangeNothing")
-tested("automata heights near the limit of ripples", source, "refused at the same step", "Ripples.HeightsBeyondTheNumbersOfKernelsAreRefusedAtTheSameStep")
+tested("automata heights near the limit of ripples", source, "refused at the same step",
+       "Ripples.HeightsBeyondTheNumbersOfKernelsAreRefusedAtTheSameStep")
 tested("automata growth factors", source, "|G| as the formulas", "Ripples.GrowthFactorsOfSmallWaves")

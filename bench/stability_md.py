@@ -1,7 +1,7 @@
 """Stress cases of force-based dynamics: md-spheres.md, section 10, and md-vectorised-lattice.md, table 4."""
 import math
 
-from trial import Run, Verdict, case, tested
+from trial import Run, Verdict, case, sandlane, tested
 
 book, lattice = "md-spheres.md 10", "md-vectorised-lattice.md table 4"
 
@@ -88,7 +88,6 @@ def fixed_step(folder):
 
 
 def sandlane_check(folder):
-    from trial import sandlane
     done = sandlane(folder, "check", "scene.toml")
     return done.stdout + done.stderr
 
@@ -155,7 +154,7 @@ def denormals(folder):
     for name, more in (("normal", {}), ("tiny", dict(stiffness=1e-134, masses=(1e-140, 1e-140), length=1e-86))):
         run, _ = collide(folder / name, **more)
         speeds.append(run.log["largest_speed"][-1] / run.log["largest_speed"][0] if run.code == 0 else math.nan)
-    refused = collide(folder / "refused", stiffness=1e-294, masses=(1e-300, 1e-300), length=1e-3)[0].refuses(2, "no numbers")
+    refused = collide(folder / "refused", stiffness=1e-294, masses=(1e-300, 1e-300), length=1e-3)[0].refuses(2, "no duration that is a number")
     return Verdict(f"e = {speeds[0]:.9f} and {speeds[1]:.9f}; {refused.observed}",
                    abs(speeds[0] - speeds[1]) < 1e-9 and refused.good)
 
@@ -355,7 +354,7 @@ def elastic(folder, steps):
               for i in range(4) for k in range(4)]
     scene = discs(grains, stiffness=1e4, domain='periodic = ["x", "y"]', md='integrator = "gear6"\ndt = 2e-4',
                   duration=2e-4 * steps)
-    return Run(folder, scene)
+    return Run(folder, scene, patience=4000)
 
 
 tested("md masses, radii not positive or not finite", book, "rejected with record and column", "Refusals.GrainFiles")

@@ -43,12 +43,13 @@ def clear(folder):
 
 
 class Run:
-    """`sandlane run` of a scene in a fresh folder, to its end: code, said, summary, log."""
+    """`sandlane run` of a scene in a fresh folder, to its end: code, said, summary, log. patience: s, after which it hangs."""
 
-    def __init__(self, folder, scene, *options, output=quiet, threads=1):
+    def __init__(self, folder, scene, *options, output=quiet, threads=1, patience=300):
         self.folder = clear(folder)
         (self.folder / "scene.toml").write_text(scene + output)
-        done = sandlane(self.folder, "run", "scene.toml", "--out", "out", "-j", threads, "--quiet", *options)
+        done = sandlane(self.folder, "run", "scene.toml", "--out", "out", "-j", threads, "--quiet", *options,
+                        timeout=patience)
         self.code, self.said = done.returncode, done.stderr.strip()
         path = self.folder / "out/summary.json"
         self.summary = json.loads(path.read_text()) if path.exists() else {}

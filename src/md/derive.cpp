@@ -1,5 +1,4 @@
 // What follows from the contacts of a scene (docs/physics.md 8): collision time, time steps, restitution.
-#include "core/error.hpp"
 #include "md/law_traits.hpp"
 #include "md/plan.hpp"
 
@@ -63,12 +62,7 @@ Derived derive(const Scene& scene, const Needs& needs) {
         const Coefficients c = laws::coefficients_from<double>(table.data() + p);
         const ContactScale fast = scale(c, light, 0.5 * needs.radius_min);
         const ContactScale deep = scale(c, heavy, needs.radius_max);
-        if (!(fast.collision_time > 0 && std::isfinite(fast.collision_time)))
-            fail(Exit::invalid_input,
-                 "materials: a contact of two grains of {:.3g} kg would last {} s: masses, radii and "
-                 "stiffness "
-                 "are so small or large that their products are no numbers. Choose other units.",
-                 needs.mass_min, fast.collision_time);
+        d.known = d.known && fast.collision_time > 0 && std::isfinite(fast.collision_time);
         d.collision_time = std::min(d.collision_time, fast.collision_time);
         bound(stable_phase(scheme, fast.damping_ratio) / fast.frequency, fast.half_swing / 50);
         d.restitution_min = std::min({d.restitution_min, fast.restitution, deep.restitution});

@@ -156,7 +156,13 @@ void check_resolved(const Scene& scene, const Needs& needs) {
         fail(Exit::invalid_input, "md.contact_onset = \"resolved\": {}", why);
 }
 
-void check_time_step(const Scene& scene, const Derived& derived, double dt) {
+void check_time_step(const Scene& scene, const Needs& needs, const Derived& derived, double dt) {
+    if (!derived.known)
+        fail(
+            Exit::invalid_input,
+            "materials: a contact of two grains of {:.3g} kg has no duration that is a number: masses, radii and "
+            "stiffness are so small or large that their products are beyond the range. Choose other units.",
+            needs.mass_min);
     if (!(dt > derived.critical_dt)) return;
     fail(Exit::invalid_input,
          "md.dt = {:.4g} s is above the critical time step {:.4g} s of the stiffest contact with {} "
@@ -210,7 +216,7 @@ Plan make_plan(const Scene& scene, const Needs& needs, const Derived& derived, s
     plan.inertia_factor = scene.md.inertia == scene::Inertia::disc ? 0.5 : 0.4;
     plan.dt = scene.md.dt > 0 ? scene.md.dt : derived.recommended_dt;
     if (!std::isfinite(plan.dt)) plan.dt = scene.md.duration > 0 ? scene.md.duration / 100 : 1e-3;
-    check_time_step(scene, derived, plan.dt);
+    check_time_step(scene, needs, derived, plan.dt);
     if (scene.md.max_speed * plan.dt > 0.1 * needs.radius_min && needs.radius_min > 0)
         fail(Exit::invalid_input,
              "md.dt = {:.4g} s: a grain of md.max_speed = {} m/s moves {:.3g} m per step, more than 0.1 "

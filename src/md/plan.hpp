@@ -37,6 +37,7 @@ struct Derived {
     double recommended_dt = 0; // s: t_c/50, and less if damping asks for it
     double restitution_min = 1, restitution_max = 0; // over material pairs, at max_speed
     double overlap_ratio = 0;                        // largest xi_max/R_min at max_speed
+    bool known = true; // contacts of all pairs of materials have a duration that is a number above 0
 };
 
 struct Plan {

@@ -9,7 +9,6 @@
 #include <ostream>
 #include <random>
 #include <thread>
-#include <vector>
 
 namespace sandlane::test {
 
@@ -23,38 +22,38 @@ struct EngineCase {
     friend void PrintTo(const EngineCase& c, std::ostream* stream) { *stream << c.name; }
 };
 
-// A function: scenes of other files may not be there yet when variables of this one begin.
-std::vector<EngineCase> engines() {
-    return {
+// A function: scenes of other files are not there before main().
+const std::vector<EngineCase>& engines() {
+    static const std::vector<EngineCase> all = {
         {"md",
          replaced(replaced(cube_scene, "duration = \"2 ms\"\n",
                            "duration = \"40 ms\"\ntangential = \"cundall-strack\"\n"),
-                  "tangential_damping = \"0.1 kg/s\"\n",
-                  "tangential_damping = \"0.1 kg/s\"\ntangential_stiffness = \"10 kN/m\"\n") +
+                  "friction = 0.5\n", "friction = 0.5\ntangential_stiffness = 1e4\n") +
              "[[analysis]]\nname = \"load\"\nkind = \"profile\"\nevery = 0.001\n",
          "0.0004"},
         {"edmd",
          "method = \"edmd\"\n[domain]\nupper = [40, 40]\nperiodic = [\"x\", \"y\"]\n[gas]\nparticles = 600\n"
-         "temperature = 1\nrestitution = 0.95\n[edmd]\nduration = 150\nstructure_every = 10\n" +
+         "temperature = 1\nrestitution = 0.95\n[edmd]\nduration = 50\nstructure_every = 10\n" +
              outputs + "picture_every = 50\ntrajectory_every = 30\n",
          "1"},
         {"dsmc",
          "method = \"dsmc\"\n[domain]\ndimension = 3\nupper = [10, 10, 10]\nperiodic = [\"x\", \"y\", "
          "\"z\"]\n[gas]\n"
          "particles = 3000\ndiameter = 0.3\ntemperature = 1\nrestitution = 0.9\n[dsmc]\nadaptive = true\n"
-         "duration = 400\n" +
+         "duration = 250\n" +
              outputs + "trajectory_every = 100\n",
          "2"},
         {"pipe",
          "method = \"pipe-flow\"\n[pipe_flow]\nlength = 500\nwidth = 21\ndissipation = 0.1\ngravity = 0.5\n"
-         "roughness = 0.5\nsteps = 40000\n" +
-             outputs + "picture_every = 10000\n",
+         "roughness = 0.5\nsteps = 15000\n" +
+             outputs + "picture_every = 5000\n",
          "200"},
         {"sandpile",
-         "method = \"sandpile\"\n[sandpile]\ncolumns = 60\nrows = 60\ndrive = \"random\"\nsteps = 40000\n" +
-             outputs + "picture_every = 10000\n",
+         "method = \"sandpile\"\n[sandpile]\ncolumns = 60\nrows = 60\ndrive = \"random\"\nsteps = 60000\n" +
+             outputs + "picture_every = 5000\n",
          "200"},
     };
+    return all;
 }
 
 class EveryEngine : public App, public testing::WithParamInterface<EngineCase> {
@@ -110,13 +109,15 @@ TEST_P(EveryEngine, KilledRunsGoOn) {
     expect_whole();
 }
 
-// The disk is full just before the end of each file in turn.
+// The disk is full just before the end of one file or another.
 TEST_P(EveryEngine, FullDisksAreErrorsAndRunsGoOn) {
     std::set<std::uintmax_t> sizes = {0, 100};
     for (const auto& [name, content] : results("whole"))
         if (content.size() > 1) sizes.insert(content.size() - 1);
     int resumed = 0;
+    std::size_t number = 0;
     for (const std::uintmax_t size : sizes) {
+        if (number++ % (1 + sizes.size() / 8) != 0) continue; // of many, some
         Call call = start("");
         call.largest_file = size;
         const Outcome o = run(call);
@@ -134,10 +135,10 @@ TEST_P(EveryEngine, FullDisksAreErrorsAndRunsGoOn) {
 
 // A checkpoint that lies in the folder of another run: of another engine, or of another seed.
 TEST_P(EveryEngine, CheckpointsOfOtherRunsAreRefused) {
-    const std::vector<EngineCase> all = engines();
-    const auto self = std::find_if(
-        all.begin(), all.end(), [](const EngineCase& c) { return std::string(c.name) == GetParam().name; });
-    const EngineCase& next = self + 1 == all.end() ? all.front() : *(self + 1);
+    const auto self = std::find_if(engines().begin(), engines().end(), [](const EngineCase& c) {
+        return std::string(c.name) == GetParam().name;
+    });
+    const EngineCase& next = self + 1 == engines().end() ? engines().front() : self[1];
     write("other.toml", next.scene);
     run_well({"run", "other.toml", "--out", "other", "--steps", "50", "--quiet"});
     run_well({"run", "scene.toml", "--out", "seed", "--steps", "50", "--quiet", "--set", "seed=77"});
