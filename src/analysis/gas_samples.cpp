@@ -55,23 +55,13 @@ std::string GasSamples::profile() const {
     text += ",temperature[J]";
     for (std::size_t c = 0; c < d; ++c) text += fmt::format(",temperature_{}[J]", "xyz"[c]);
     text += gas_.rough ? ",spin_temperature[J]\n" : "\n";
-    const auto a = static_cast<std::size_t>(axis_);
-    const double width = (gas_.upper[a] - gas_.lower[a]) / static_cast<double>(bins_.size());
-    for (std::size_t n = 0; n < bins_.size(); ++n) {
-        const Sums& b = bins_[n];
-        const double number = density(b), count = std::max(b.count, 1.0);
-        text += fmt::format("{:.9g},{:.9g},{:.9g}", gas_.lower[a] + (static_cast<double>(n) + 0.5) * width,
-                            number, number * gas_.particle_volume);
-        double mean = 0, of[3] = {};
-        for (std::size_t c = 0; c < d; ++c) {
-            const double mass = b.mass > 0 ? b.mass : 1, u = b.velocity[c] / mass;
-            of[c] = gas_.mass * std::max(0.0, b.square[c] / count - mass / count * (u * u));
-            mean += of[c] / static_cast<double>(d);
-            text += fmt::format(",{:.9g}", u);
-        }
-        text += fmt::format(",{:.9g}", mean);
-        for (std::size_t c = 0; c < d; ++c) text += fmt::format(",{:.9g}", of[c]);
-        if (gas_.rough) text += fmt::format(",{:.9g}", gas_.moment * b.spin2 / count / (d == 3 ? 3 : 1));
+    for (const ProfileRow& row : profile_rows()) {
+        text +=
+            fmt::format("{:.9g},{:.9g},{:.9g}", row.place, row.density, row.density * gas_.particle_volume);
+        for (std::size_t c = 0; c < d; ++c) text += fmt::format(",{:.9g}", row.velocity[c]);
+        text += fmt::format(",{:.9g}", row.temperature);
+        for (std::size_t c = 0; c < d; ++c) text += fmt::format(",{:.9g}", row.of_component[c]);
+        if (gas_.rough) text += fmt::format(",{:.9g}", row.of_spins);
         text += '\n';
     }
     return text;
@@ -79,16 +69,21 @@ std::string GasSamples::profile() const {
 
 std::vector<GasSamples::ProfileRow> GasSamples::profile_rows() const {
     std::vector<ProfileRow> rows;
-    const auto a = static_cast<std::size_t>(axis_);
+    const auto a = static_cast<std::size_t>(axis_), d = static_cast<std::size_t>(gas_.dimension);
     const double width = (gas_.upper[a] - gas_.lower[a]) / static_cast<double>(bins_.size());
     for (std::size_t n = 0; n < bins_.size(); ++n) {
         const Sums& b = bins_[n];
         const double count = std::max(b.count, 1.0), mass = b.mass > 0 ? b.mass : 1;
-        double temperature = 0;
-        for (std::size_t c = 0; c < static_cast<std::size_t>(gas_.dimension); ++c)
-            temperature += gas_.mass / gas_.dimension *
-                           std::max(0.0, (b.square[c] - b.velocity[c] * b.velocity[c] / mass) / count);
-        rows.push_back({gas_.lower[a] + (static_cast<double>(n) + 0.5) * width, density(b), temperature});
+        ProfileRow row;
+        row.place = gas_.lower[a] + (static_cast<double>(n) + 0.5) * width;
+        row.density = density(b);
+        for (std::size_t c = 0; c < d; ++c) {
+            const double u = row.velocity[c] = b.velocity[c] / mass;
+            row.of_component[c] = gas_.mass * std::max(0.0, b.square[c] / count - mass / count * (u * u));
+            row.temperature += row.of_component[c] / static_cast<double>(d);
+        }
+        row.of_spins = gas_.moment * b.spin2 / count / (d == 3 ? 3 : 1);
+        rows.push_back(row);
     }
     return rows;
 }
@@ -96,10 +91,13 @@ std::vector<GasSamples::ProfileRow> GasSamples::profile_rows() const {
 std::vector<GasSamples::SpeedRow> GasSamples::speed_rows() const {
     std::vector<SpeedRow> rows;
     constexpr double width = fastest / speed_bins;
+    const double n = std::max(counted_, 1.0);
     for (std::size_t b = 0; b < speed_bins; ++b) {
         const double c = (static_cast<double>(b) + 0.5) * width;
-        rows.push_back(
-            {c, speeds_[b] / (std::max(counted_, 1.0) * width), maxwell_speed_density(gas_.dimension, c)});
+        const double component = (components_[speed_bins + b] + components_[speed_bins - 1 - b]) /
+                                 (2 * n * gas_.dimension * width);
+        rows.push_back({c, speeds_[b] / (n * width), maxwell_speed_density(gas_.dimension, c), component,
+                        std::exp(-c * c) / std::sqrt(std::numbers::pi)});
     }
     return rows;
 }
@@ -107,17 +105,9 @@ std::vector<GasSamples::SpeedRow> GasSamples::speed_rows() const {
 std::string GasSamples::distribution() const {
     std::string text = "c[1],speed_density[1],maxwell_speed_density[1],component_density[1],"
                        "maxwell_component_density[1]\n";
-    constexpr double width = fastest / speed_bins;
-    const double n = std::max(counted_, 1.0), pi = std::numbers::pi;
-    for (std::size_t b = 0; b < speed_bins; ++b) {
-        const double c = (static_cast<double>(b) + 0.5) * width;
-        // Both signs of a component together.
-        const double component = (components_[speed_bins + b] + components_[speed_bins - 1 - b]) /
-                                 (2 * n * gas_.dimension * width);
-        const double maxwell = maxwell_speed_density(gas_.dimension, c);
-        text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", c, speeds_[b] / (n * width), maxwell,
-                            component, std::exp(-c * c) / std::sqrt(pi));
-    }
+    for (const SpeedRow& row : speed_rows())
+        text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", row.c, row.density, row.maxwell,
+                            row.component_density, row.maxwell_of_component);
     return text;
 }
 

@@ -50,10 +50,12 @@ public:
 
     // The same as numbers.
     struct ProfileRow {
-        double place, density, temperature;
+        double place = 0, density = 0, velocity[3] = {0, 0, 0};
+        double temperature = 0, of_component[3] = {0, 0, 0}, of_spins = 0; // J
     };
     struct SpeedRow {
-        double c, density, maxwell;
+        double c, density, maxwell;                     // of the speed
+        double component_density, maxwell_of_component; // of each component, both signs together
     };
     [[nodiscard]] std::vector<ProfileRow> profile_rows() const;
     [[nodiscard]] std::vector<SpeedRow> speed_rows() const;

@@ -63,6 +63,7 @@ std::vector<double> EdmdLog::row(const edmd::Ensemble& runs, const std::vector<e
     std::vector<double> row = {runs.first().time(), events}, errors;
     for (std::size_t c = 0; c < rows.front().size(); ++c) {
         std::vector<double> values;
+        values.reserve(rows.size());
         for (const auto& of_run : rows) values.push_back(of_run[c]);
         const edmd::MeanError mean = edmd::mean_of(values);
         row.push_back(runs.size() > 1 ? mean.mean : values.front());

@@ -328,6 +328,7 @@ std::unique_ptr<Algorithm> start(const scene::Scene& scene, const Plan& plan, si
 
 Ensemble start_all(const scene::Scene& scene, const Plan& plan, simd::Isa isa) {
     std::vector<std::unique_ptr<Algorithm>> runs;
+    runs.reserve(static_cast<std::size_t>(plan.replicas));
     for (int n = 0; n < plan.replicas; ++n) runs.push_back(start(scene, plan, isa, n));
     return {std::move(runs), plan.threads};
 }
