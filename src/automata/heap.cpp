@@ -233,7 +233,7 @@ public:
     // The first heap from the side, a row for each height.
     [[nodiscard]] std::vector<Field> fields() const override {
         const HeapTable& table = tables_.front();
-        const std::int32_t most = *std::max_element(table.heights().begin(), table.heights().end());
+        const std::int64_t most = *std::max_element(table.heights().begin(), table.heights().end());
         std::vector<std::int32_t> across; // from left to right
         if (heap_.sides == scene::HeapSides::two)
             for (std::int64_t x = shown() - 1; x > 0; --x) across.push_back(table.height(1, x));

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sandlane::automata {
 
@@ -191,6 +192,11 @@ void SandpileModel::restore_search(ByteReader& r) {
         std::pair{p.columns, p.rows} != expected ||
         p.w.size() != static_cast<std::size_t>(p.columns) * static_cast<std::size_t>(p.rows))
         fail(Exit::io, "the state is one of another lattice");
+    // Of a Laplacian of at most 7 on each site (two stable heights and the grains between them): a larger one
+    // is no potential of this lattice, and would be toppled back without end.
+    const double most = 7.0 * (p.columns + 1.0) * (p.rows + 1.0);
+    for (const double w : p.w)
+        if (!(std::abs(w) <= most)) fail(Exit::io, "damaged state");
     std::unique_ptr<IdentitySearch> search;
     if (searching) {
         search = std::make_unique<IdentitySearch>(p, means_, pile_.active_tiles);

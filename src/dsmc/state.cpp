@@ -159,14 +159,15 @@ namespace {
 
 // What a step relies on: numbers, kinds that there are, and no way of more boxes than images are counted.
 bool suits(const Setup& setup, double dt, const double* place, const double* velocity, const double* spin) {
-    constexpr double most_boxes = 1 << 19;
+    constexpr double most_boxes = 1 << 16; // collisions may make it some times as fast
     std::uint64_t images = 0;
     std::memcpy(&images, velocity + 3, sizeof images);
     if ((images >> 60) >= setup.kinds()) return false;
     for (int d = 0; d < 3; ++d) {
+        const double surface = spin != nullptr ? 0.5 * setup.diameter * std::abs(spin[d]) : 0;
         const double way = std::abs(place[d] - setup.lower[d]) + std::abs(velocity[d]) * dt;
         if (!std::isfinite(place[d]) || !std::isfinite(velocity[d]) ||
-            (spin != nullptr && !std::isfinite(spin[d])) ||
+            !(surface * dt < most_boxes * (setup.upper[0] - setup.lower[0])) ||
             (d < setup.dimension && !(way < most_boxes * (setup.upper[d] - setup.lower[d]))))
             return false;
     }
@@ -207,10 +208,21 @@ void Simulation::restore(const std::string& bytes) {
     belongs(total == size_ && in.at_end());
     belongs(step_ >= 0 && std::isfinite(time_) && dt_ > 0 && std::isfinite(dt_) && next_dt_ > 0 &&
             std::isfinite(next_dt_));
+    double longest = std::max(dt_, next_dt_); // step of the next two
+    if (setup_.adaptive) {
+        double squares = 0;
+        for (const Particle& p : particles()) {
+            const double mass = mass_.empty() || p.kind >= mass_.size() ? 1.0 : mass_[p.kind];
+            for (const double v : p.velocity) squares += mass * v * v;
+        }
+        for (const double known : {square_sum_, squares})
+            if (known > 0) longest = std::max(longest, setup_.dt * std::sqrt(first_square_sum_ / known));
+        belongs(first_square_sum_ >= 0 && std::isfinite(longest));
+    }
     std::vector<bool> seen(size_, false);
     for_rows([&](const double* place, const double* velocity, const double* spin) {
         const std::uint32_t id = particle_at(place, velocity).id;
-        belongs(id < size_ && !seen[id] && suits(setup_, std::max(dt_, next_dt_), place, velocity, spin));
+        belongs(id < size_ && !seen[id] && suits(setup_, longest, place, velocity, spin));
         seen[id] = true;
     });
     find_maxwell_rate();

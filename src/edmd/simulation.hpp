@@ -79,6 +79,7 @@ private:
     void begin_epoch();
     void kick();
     [[nodiscard]] Drift drift() const;
+    [[nodiscard]] bool stands_in_its_cell(std::uint32_t k) const;
     void sort_by_cell();
     void set_epoch_end();
 

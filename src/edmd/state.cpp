@@ -119,8 +119,29 @@ void Simulation::restore(const std::string& bytes) {
     for (const RawState& s : raw_states())
         if (!suits(s)) fail(Exit::io, "damaged state");
     now_ = clock_.now;
+    for (std::uint32_t k = 0; k < n; ++k)
+        if (!stands_in_its_cell(k)) fail(Exit::io, "damaged state");
     sort_by_cell();
     dispatch_predict_all();
+}
+
+// Now, or in the next one: crossings are caught up within their rounding, not through the box.
+bool Simulation::stands_in_its_cell(std::uint32_t k) const {
+    const HardState& s = states_[k];
+    const double dt = now_ - s.time;
+    for (int d = 0; d < setup_.dimension; ++d) {
+        double x = s.place[d] + s.velocity[d] * dt + setup_.gravity[d] * (0.5 * (dt * dt)) - setup_.lower[d] -
+                   static_cast<double>(simd::image_of(s, d)) * setup_.length(d);
+        if (d == 0 && setup_.shear != 0)
+            x -= static_cast<double>(simd::image_of(s, 1)) * setup_.offset_at(now_);
+        const double below = events_[k].cell[d] * edge_[d] - x,
+                     above = x - (events_[k].cell[d] + 1) * edge_[d];
+        // Beyond the walls there are no cells.
+        const bool lowest = !setup_.periodic[d] && events_[k].cell[d] == 0;
+        const bool highest = !setup_.periodic[d] && events_[k].cell[d] + 1 == view_.count[d];
+        if ((below > edge_[d] && !lowest) || (above > edge_[d] && !highest)) return false;
+    }
+    return true;
 }
 
 } // namespace sandlane::edmd
