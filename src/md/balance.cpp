@@ -49,32 +49,41 @@ void Simulation::begin_balance() {
     if (scene_.watch.overlap.asked) balance_.examined = 1e-3 * needs_.radius_min;
 }
 
-// Sums over the grains of a tile of what stands in its forces now: those between grains, or all.
-void Simulation::sum_forces(std::size_t tile, const double* force, bool walls) {
+// Sums over the grains of a tile of what stands in its forces now: those between grains, or all, with their
+// power. Without walls both are the same.
+void Simulation::sum_forces(std::size_t tile, const double* force, bool all) {
+    if (!all && !needs_.walls) return;
     const std::size_t begin = tile * tile_size, end = std::min(state_.size(), begin + tile_size);
     const std::size_t stride = state_.force_stride();
+    double sum[3] = {};
+    for (std::size_t i = 0; i < end - begin; ++i)
+        for (int d = 0; d < plan_.dimension; ++d) sum[d] += force[i * stride + static_cast<std::size_t>(d)];
+    TileSums& sums = tile_sums_[tile];
+    if (!all || !needs_.walls) sums.between = {sum[0], sum[1], sum[2]};
+    if (!all) return;
+    sums.all = {sum[0], sum[1], sum[2]};
+    sums.power = 0;
+    for (std::size_t i = begin; i < end; ++i)
+        sums.power += power_of(i, force + (i - begin) * stride) / plan_.dt;
+}
+
+// W times dt, of the forces and torques on a grain.
+double Simulation::power_of(std::size_t i, const double* force) const {
     const int dimension = plan_.dimension;
     const bool couples = plan_.rotation == simd::Rotation::couples;
-    double sum[3] = {}, power = 0;
-    for (std::size_t i = begin; i < end; ++i, force += stride) {
-        const double* record = state_.record_of(i);
-        for (int d = 0; d < dimension; ++d) {
-            sum[d] += force[d];
-            power += force[d] * record[dimension + d];
-        }
-        if (!state_.turns()) continue;
-        if (dimension == 2) {
-            power += force[2] * record[simd::Record<2>::spin];
-            if (couples) power += force[3] * record[simd::Record<2>::spin] * state_.inverse_radius(i);
-            continue;
-        }
-        const double* spin = state_.spin.data() + i * simd::spin_fields;
-        for (int d = 0; d < 3; ++d)
-            power += (force[4 + d] * state_.radius(i) + (couples ? force[8 + d] : 0.0)) * spin[d];
+    const double* record = state_.record_of(i);
+    double power = 0;
+    for (int d = 0; d < dimension; ++d) power += force[d] * record[dimension + d];
+    if (!state_.turns()) return power;
+    if (dimension == 2) {
+        power += force[2] * record[simd::Record<2>::spin];
+        if (couples) power += force[3] * record[simd::Record<2>::spin] * state_.inverse_radius(i);
+        return power;
     }
-    TileSums& sums = tile_sums_[tile];
-    (walls ? sums.all : sums.between) = {sum[0], sum[1], sum[2]};
-    sums.power = power / plan_.dt;
+    const double* spin = state_.spin.data() + i * simd::spin_fields;
+    for (int d = 0; d < 3; ++d)
+        power += (force[4 + d] * state_.radius(i) + (couples ? force[8 + d] : 0.0)) * spin[d];
+    return power;
 }
 
 // Trapezoidal sums, as for the work of walls.

@@ -152,7 +152,8 @@ private:
     // 1, and 2 where no contact loses energy, and 4 where forces are summed.
     [[nodiscard]] double balance_kind() const;
     void begin_balance();
-    void sum_forces(std::size_t tile, const double* force, bool walls);
+    void sum_forces(std::size_t tile, const double* force, bool all);
+    [[nodiscard]] double power_of(std::size_t grain, const double* force) const;
     void add_balance();
     [[nodiscard]] double balanced_energy(const Observables& now) const;
     [[nodiscard]] double energy_residual(const Observables& now) const;
