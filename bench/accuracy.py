@@ -4,6 +4,7 @@ Results lie in build/bench/accuracy: accuracy.csv, and for each case a CSV and a
 them.
 """
 import csv
+import functools
 import math
 import pathlib
 import shutil
@@ -37,14 +38,7 @@ def evaluate(programs, chosen=None, steps=ratios):
 
 def evaluate_in(folder, programs, chosen, steps):
     found = []
-
-    def add(case, program, ratio, run, quantities):
-        try:
-            errors = run()
-        except runs.Refused:
-            errors = dict.fromkeys(quantities, math.nan)
-        found.extend((case, quantity, program, ratio, error) for quantity, error in errors.items())
-
+    add = functools.partial(runs.measured, found)
     for name, law in cases.laws.items():
         if chosen and name not in chosen:
             continue

@@ -180,13 +180,7 @@ def small(folder, program, until, ratio):
 
 def lammps_bounce(folder, ratio):
     """As runs.bounce, with LAMMPS's wall; its damping constants are multiplied by the mass."""
-    law = cases.laws["linear e=0.88"]
-    damping = law.damping * math.sqrt(cases.mass / cases.effective_mass)
-    time = law.answer[1] * math.sqrt(cases.mass / cases.effective_mass)
-    dt = time / ratio
-    steps = round(cases.bounce_time() / dt)
-    gravity = cases.bounce_gravity()
-    height = 0.5 / gravity + (numpy.arange(runs.phases) + 0.5) / runs.phases * dt * cases.speed
+    _, damping, dt, steps, gravity, height = runs.bounce_start(ratio)
     zero = numpy.zeros(runs.phases)
     grains = {"x": 4 * numpy.arange(runs.phases) + 2, "y": cases.radius + height, "vx": zero, "vy": zero}
     pair = f"gran/hooke {cases.stiffness} NULL {damping!r} 0 0 1 limit_damping"
@@ -228,14 +222,7 @@ def lammps_gas(folder, hertz, ratio):
 def evaluate(folder, programs, steps=ratios, short=False):
     """Rows (case, quantity, program, ratio, error)."""
     found = []
-
-    def add(name, program, ratio, measured, quantities):
-        try:
-            errors = measured()
-        except runs.Refused:
-            errors = dict.fromkeys(quantities, math.nan)
-        found.extend((name, quantity, program, ratio, error) for quantity, error in errors.items())
-
+    add = functools.partial(runs.measured, found)
     for program in programs:
         for ratio in steps:
             for name, case in springs.springs.items():

@@ -131,15 +131,28 @@ def rms(values):
     return float(numpy.sqrt(numpy.mean(numpy.square(values))))
 
 
-def bounce(folder, integrator, ratio):
-    """Relative error of the energy after three bounces on a plane under gravity."""
+def measured(found, case, program, ratio, run, quantities):
+    """Appends rows (case, quantity, program, ratio, error) of what run() returns; nan where the step is refused."""
+    try:
+        errors = run()
+    except Refused:
+        errors = dict.fromkeys(quantities, math.nan)
+    found.extend((case, quantity, program, ratio, error) for quantity, error in errors.items())
+
+
+def bounce_start(ratio):
+    """Law, damping, time step, steps, gravity and heights of bounce()."""
     law = cases.laws["linear e=0.88"]
     damping = law.damping * math.sqrt(cases.mass / cases.effective_mass)
-    time = law.answer[1] * math.sqrt(cases.mass / cases.effective_mass)
-    dt = time / ratio
-    steps = round(cases.bounce_time() / dt)
+    dt = law.answer[1] * math.sqrt(cases.mass / cases.effective_mass) / ratio
     gravity = cases.bounce_gravity()
     height = 0.5 / gravity + (numpy.arange(phases) + 0.5) / phases * dt * cases.speed
+    return law, damping, dt, round(cases.bounce_time() / dt), gravity, height
+
+
+def bounce(folder, integrator, ratio):
+    """Relative error of the energy after three bounces on a plane under gravity."""
+    law, damping, dt, steps, gravity, height = bounce_start(ratio)
     zero, one = numpy.zeros(phases), numpy.ones(phases)
     grains = dict(zip(columns, (4 * numpy.arange(phases) + 2, cases.radius + height, zero, zero, zero,
                                 cases.radius * one, cases.mass * one)))

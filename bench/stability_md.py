@@ -217,9 +217,25 @@ duration = 0.1
                    contacts == {432.0} and max(speeds.values()) < 1e-9)
 
 
+def floor_and_lid(height, motion):
+    return f"""[[walls]]
+kind = "plane"
+points = [[0, 0]]
+normal = [0, 1]
+[[walls]]
+kind = "plane"
+points = [[0, {height}]]
+normal = [0, -1]
+motion = "press"
+[[motions]]
+name = "press"
+{motion}
+"""
+
+
 @case("md jammed state", book, "a lid presses discs from phi = 0.79 to 0.88: a bounded overlap, finite energies, in the end at rest")
 def jammed(folder):
-    scene = """[domain]
+    scene = floor_and_lid(40, 'kind = "oscillate"\namplitude = [0, -4]\nomega = 0.15707963267948966') + """[domain]
 lower = [0, -1]
 upper = [40, 42]
 periodic = ["x"]
@@ -235,20 +251,6 @@ lower = [0, 0]
 upper = [40, 40]
 packing_fraction = 0.79
 thermal_speed = 0.5
-[[walls]]
-kind = "plane"
-points = [[0, 0]]
-normal = [0, 1]
-[[walls]]
-kind = "plane"
-points = [[0, 40]]
-normal = [0, -1]
-motion = "press"
-[[motions]]
-name = "press"
-kind = "oscillate"
-amplitude = [0, -4]
-omega = 0.15707963267948966
 [md]
 normal = "linear-dashpot"
 tangential = "none"
@@ -266,20 +268,7 @@ duration = 10
 @case("md many-body compression", book, "a piston pushes a column far together: an error, or bounded overlap, finite energies")
 def piston(folder):
     scene = discs([(5.0, 1.0 + 2.0 * k, 0.0, 0.0, 1.0, 1.0) for k in range(4)], damping=100.0, duration=0.5, stiffness=1e4)
-    scene += """[[walls]]
-kind = "plane"
-points = [[0, 0]]
-normal = [0, 1]
-[[walls]]
-kind = "plane"
-points = [[0, 8.01]]
-normal = [0, -1]
-motion = "push"
-[[motions]]
-name = "push"
-kind = "linear"
-velocity = [0, -8]
-"""
+    scene += floor_and_lid(8.01, 'kind = "linear"\nvelocity = [0, -8]')
     run = Run(folder, scene)
     if run.code:
         return run.refuses(6, "overlap" if "overlap" in run.said else "")

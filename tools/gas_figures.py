@@ -188,17 +188,18 @@ def clusters(program):
                                           ("structure_factor", "shear_spectrum")}, "--log", "xy")
 
 
-def main():
-    figures = {f.__name__: f for f in (haff, sonine, mixture, state, clusters)}
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def draw(figures, text, folder):
+    """Command line of figures, functions of the program's path that work in `folder`."""
+    figures = {f.__name__: f for f in figures}
+    parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("figure", nargs="*", choices=[*figures, []], help="all if none is given")
     parser.add_argument("--program", default=str(root / "build/release/sandlane"))
     options = parser.parse_args()
-    work.mkdir(parents=True, exist_ok=True)
+    folder.mkdir(parents=True, exist_ok=True)
     for name in options.figure or figures:
         print(f"-- {name}", flush=True)
         figures[name](options.program)
 
 
 if __name__ == "__main__":
-    main()
+    draw((haff, sonine, mixture, state, clusters), __doc__, work)

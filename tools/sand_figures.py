@@ -10,7 +10,6 @@ silo       discharge through outlets of several widths against Beverloo's law (f
 nut        height of the large grain, shaken strongly and weakly (two minutes)
 drum       Lacey's index of the drum in three dimensions against turns (two minutes)
 """
-import argparse
 import json
 import math
 import statistics
@@ -161,17 +160,5 @@ def drum(program):
     figures.plot("drum-3d-mixing", "turns", "11", {"Lacey_index": turns})
 
 
-def main():
-    choices = {f.__name__: f for f in (hopper, heap, shear, silo, nut, drum)}
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("figure", nargs="*", choices=[*choices, []], help="all if none is given")
-    parser.add_argument("--program", default=str(figures.root / "build/release/sandlane"))
-    options = parser.parse_args()
-    work.mkdir(parents=True, exist_ok=True)
-    for name in options.figure or choices:
-        print(f"-- {name}", flush=True)
-        choices[name](options.program)
-
-
 if __name__ == "__main__":
-    main()
+    figures.draw((hopper, heap, shear, silo, nut, drum), __doc__, work)
