@@ -351,4 +351,7 @@ TEST(WallLoads, ATurningWallGrainWithCouples) {
     EXPECT_NEAR(sim.contacts().at(0).tangential, -0.5 * normal, tolerance); // n points down, t to the right
     sim.run(1);
     EXPECT_NEAR(sim.wall_work(), 2 * torque * s.md.dt, 1e-4 * torque * s.md.dt); // the kernel's own sum
+    // The same force moves the grain: by the kernels of a step, too. The wall turns to the left, below it.
+    sim.run(10);
+    EXPECT_NEAR(sim.snapshot().vx[0] * 0.02 / sim.time(), -0.5 * normal, 1e-6 * normal);
 }

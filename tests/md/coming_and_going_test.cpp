@@ -96,6 +96,9 @@ TEST(Sink, TakesWhatLiesInIt) {
         const md::Observables now = sim.observe();
         EXPECT_NEAR(sim.added_energy(), -0.5 * 0.01, 1e-15);
         EXPECT_NEAR(sim.dissipated(now), 0, 1e-12);
+        md::Simulation resumed = test::make_simulation(s, grains, simd::Isa::scalar);
+        resumed.restore(sim.serialise());
+        EXPECT_EQ(resumed.removed(), 1);
     }
 }
 

@@ -120,6 +120,22 @@ TEST(Mixing, PairsOverride) {
     EXPECT_EQ(entry(s, 0, 0).cohesion, 1e4);
 }
 
+// A pair with the Young modulus of two equal materials, whose Poisson ratio is zero, is those materials.
+TEST(Mixing, YoungModulusOfAPair) {
+    scene::Scene s = two_materials();
+    s.md.normal = NormalLaw::viscoelastic;
+    s.materials[1] = s.materials[0];
+    s.materials[1].name.push_back('2');
+    for (scene::Material& m : s.materials) m.poisson = 0;
+    const double alike = entry(s, 0, 1).elastic;
+    scene::MaterialPair pair;
+    pair.first = s.materials[0].name;
+    pair.second = s.materials[1].name;
+    pair.young = s.materials[0].young;
+    s.pairs = {pair};
+    EXPECT_NEAR(entry(s, 0, 1).elastic, alike, 1e-15 * alike);
+}
+
 // T2 and T3 of 9.3, T1 of 9.2, T5 of 9.4: all digits that are given.
 TEST(Scale, OfReferenceCollisions) {
     using Hertz = md::LawTraits<laws::Viscoelastic>;
@@ -206,6 +222,24 @@ TEST(TimeStep, ResolvesUnloading) {
     const md::Derived d = md::derive(s, md::analyse(s, grains));
     EXPECT_NEAR(d.recommended_dt, std::numbers::pi / 50 / std::sqrt(1e6 / 5e-4), 1e-15);
     EXPECT_NEAR(d.collision_time, 0.5 * std::numbers::pi * (1 / std::sqrt(2e7) + 1 / std::sqrt(2e9)), 1e-15);
+}
+
+// Largest stable omega_0 dt of each scheme at the damping ratio 1 (docs/physics.md 8).
+TEST(TimeStep, IsBoundedByTheSchemeAndTheDamping) {
+    scene::Scene s = empty_scene();
+    s.md.tangential = scene::TangentialLaw::none;
+    const double mass = 1e-3, frequency = std::sqrt(1e6 / (0.5 * mass)); // of two equal grains
+    s.materials[0].stiffness = 1e6;
+    s.materials[0].damping = 2 * frequency * (0.5 * mass);
+    const auto grains = {grain(0, {}, {}, 0.01, mass)};
+    using scene::Integrator;
+    for (const auto& [integrator, phase] :
+         {std::pair{Integrator::velocity_verlet, 0.47}, std::pair{Integrator::gear4, 0.26},
+          std::pair{Integrator::gear5, 0.148}, std::pair{Integrator::gear6, 0.081}}) {
+        s.md.integrator = integrator;
+        const md::Derived d = md::derive(s, md::analyse(s, grains));
+        EXPECT_NEAR(d.critical_dt * frequency, phase, 1e-12);
+    }
 }
 
 // dt gamma_r/J_eff < 0.15 for the rolling of two of the lightest grains, J_eff = J/2.

@@ -70,6 +70,22 @@ TEST(PrescribedMotion, VelocityIsTheDerivative) {
     }
 }
 
+// Displacement amplitude * wave(omega (t - start) + phase), and its velocity, at two known arguments.
+TEST(PrescribedMotion, OscillationsBeginAtTheirReferenceTime) {
+    scene::Motion m = motion_of(scene::MotionKind::oscillate);
+    const double quarter = 0.5 * std::numbers::pi / m.omega;
+    m.phase = 0;
+    for (const auto wave : {scene::Wave::sine, scene::Wave::cosine}) {
+        m.wave = wave;
+        const bool sine = wave == scene::Wave::sine;
+        const RigidState first = rigid_state(m, m.start), later = rigid_state(m, m.start + quarter);
+        expect_near(first.shift, (sine ? 0.0 : 1.0) * m.amplitude, 1e-15);
+        expect_near(first.shift_velocity, (sine ? m.omega : 0.0) * m.amplitude, 1e-15);
+        expect_near(later.shift, (sine ? 1.0 : 0.0) * m.amplitude, 1e-15);
+        expect_near(later.shift_velocity, (sine ? 0.0 : -m.omega) * m.amplitude, 1e-15);
+    }
+}
+
 TEST(PrescribedMotion, AnOrbitLiesAcrossItsAxis) {
     const scene::Motion m = motion_of(scene::MotionKind::planetary);
     for (const double t : {0.3, 1.0, 2.7}) {
