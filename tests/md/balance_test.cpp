@@ -351,7 +351,15 @@ TEST(WallLoads, ATurningWallGrainWithCouples) {
     EXPECT_NEAR(sim.contacts().at(0).tangential, -0.5 * normal, tolerance); // n points down, t to the right
     sim.run(1);
     EXPECT_NEAR(sim.wall_work(), 2 * torque * s.md.dt, 1e-4 * torque * s.md.dt); // the kernel's own sum
-    // The same force moves the grain: by the kernels of a step, too. The wall turns to the left, below it.
-    sim.run(10);
-    EXPECT_NEAR(sim.snapshot().vx[0] * 0.02 / sim.time(), -0.5 * normal, 1e-6 * normal);
+    // The same force moves the grain, by the kernels of a step, with couples and without. The wall turns to
+    // the left, below it.
+    for (const bool couples : {true, false}) {
+        if (!couples) {
+            s.md.lever_arm = scene::LeverArm::undeformed;
+            s.materials[0].rolling_friction = s.materials[0].rolling_damping = 0;
+        }
+        md::Simulation dragged = simulate(s, {grain(0, {0, d, 0}, {}, radius, 0.02)});
+        dragged.run(10);
+        EXPECT_NEAR(dragged.snapshot().vx[0] * 0.02 / dragged.time(), -0.5 * normal, 1e-6 * normal);
+    }
 }
